@@ -31,12 +31,12 @@ struct PipelineOptions {
   void validate() const;
 };
 
-// Every option of a detection, the one list for command line, bindings and bridges. The limit is
-// not among them: it holds for a call.
+// Names every option of a detection to `visit`: the one list for command line, bindings and
+// bridges. The limit is not among them: it holds for a call.
 void describe(PipelineOptions& options, OptionVisitor& visit);
 
-// Undistorts an image. The view has neither edges nor tensors yet. Needs no backend: it may run on
-// another thread while a backend is in use.
+// Undistorts an image and returns its view, which has neither edges nor tensors yet. Needs no
+// backend: it may run on another thread while a backend is in use.
 ObjectView undistorted_view(const Image& image, const Camera& camera, const Se3& camera_from_world);
 
 // Gives a view the depth image that belongs to its grey one, before add_tensors or detect_objects.
@@ -46,12 +46,13 @@ ObjectView undistorted_view(const Image& image, const Camera& camera, const Se3&
 void add_depth(ObjectView& view, const DepthImage& depth, const Camera& camera,
                const DepthNoise& noise = {});
 
-// Finds the edges of an undistorted view.
+// Finds the edges of an undistorted view and puts them into it.
 void add_edges(ObjectView& view, Backend& backend, const EdgesOptions& options);
 
-// Undistorts an image and finds its edges: all work that does not depend on the models. The view
-// has no tensors yet. One thread may prepare the next image while another thread detects in this
-// one, if each has its own backend. `stages`, where given, gains the time of each stage.
+// Undistorts an image, finds its edges and returns the view: all work that does not depend on the
+// models. The view has no tensors yet. One thread may prepare the next image while another thread
+// detects in this one, if each has its own backend. `stages`, where given, gains the time of each
+// stage.
 ObjectView prepare_view(const Image& image, const Camera& camera, const Se3& camera_from_world,
                         Backend& backend, const PipelineOptions& options,
                         std::vector<StageSeconds>* stages = nullptr);
@@ -63,7 +64,7 @@ enum class Completion {
   DeadlinePassed,  // the limit was over before the work was: poses may be missing or unrefined
   Cancelled,
 };
-// Of work that has ended under this limit: whether it was cancelled, ended by the deadline or done.
+// Returns how work that has ended under this limit ended: cancelled, by the deadline or done.
 Completion completion_under(const TimeLimit& limit);
 std::string to_string(Completion completion);  // "complete", "deadline passed", "cancelled"
 
@@ -74,15 +75,15 @@ struct Detections {
   Completion completion = Completion::Complete;
 };
 
-// All objects in one prepared view. Its camera_from_world matters only to a prior in the world
-// (DetectOptions::scan.world). `trace`, where given, receives what every stage held
-// (detect/explain.h).
+// Returns all objects in one prepared view, best probability first. Its camera_from_world matters
+// only to a prior in the world (DetectOptions::scan.world). `trace`, where given, receives what
+// every stage held (detect/explain.h).
 Detections detect_objects(const ObjectView& prepared, std::span<const TemplateSet> sets,
                           Backend& backend, const PipelineOptions& options,
                           DetectTrace* trace = nullptr);
 
-// All objects in several prepared, calibrated views of one static scene. Finds candidates in every
-// view and refines each over all views (Eq. 11).
+// Returns all objects in several prepared, calibrated views of one static scene. It finds
+// candidates in every view and refines each over all views (Eq. 11).
 Detections detect_jointly(std::span<const ObjectView> prepared, std::span<const TemplateSet> sets,
                           Backend& backend, const PipelineOptions& options);
 

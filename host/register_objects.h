@@ -20,10 +20,10 @@ struct RegisterObjectsOptions {
 // Detection::convergence of a start that no image shows.
 inline constexpr const char* OUT_OF_SIGHT = "out of sight";
 
-// In the order of the starts, which are in the world of the views (with one view, its camera frame
-// may be the world). InputError: an image too large for the device. A start that no image shows
-// could be registered to any edge: it gets probability 0 and OUT_OF_SIGHT. LogicError: no view, a
-// start whose pose is not finite, an object without a model.
+// Refines the starts and returns a detection for each, in their order. They are in the world of the
+// views (with one view, its camera frame may be the world). InputError: an image too large for the
+// device. A start that no image shows could be registered to any edge: it gets probability 0 and
+// OUT_OF_SIGHT. LogicError: no view, a start whose pose is not finite, an object without a model.
 Detections register_objects(std::span<const ObjectView> prepared, std::span<const EdgeModel> models,
                             std::span<const ObjectPose> starts, Backend& backend,
                             const RegisterObjectsOptions& options);

@@ -43,7 +43,7 @@ class BackendView {
   TensorShape shape;
   TensorOptions options;
   Intrinsics intrinsics{};
-  // Copies the tensor to the host (for pictures and tests).
+  // Copies the tensor to the host and returns it (for pictures and tests).
   virtual std::vector<std::uint16_t> tensor() const = 0;
 };
 using ViewHandle = std::shared_ptr<const BackendView>;
@@ -93,7 +93,7 @@ class BackendChamfer {
   virtual ~BackendChamfer() = default;
   std::uint32_t particles = 0, combinations = 0;
   ChamferOptions options;
-  // Copies them to the host, [particle][combination].
+  // Copies the cells to the host and returns them, [particle][combination].
   virtual std::vector<ChamferCell> cells() const = 0;
 };
 using ChamferHandle = std::shared_ptr<const BackendChamfer>;
@@ -116,27 +116,29 @@ class Backend {
   virtual std::string name()
       const = 0;  // "cpu", "cpu-reference", "vulkan:0 llvmpipe (LLVM 15.0.6, 256 bits)"
   virtual bool is_gpu() const = 0;
-  // Whether it computes beside the processor: neither a CPU path nor a software device.
+  // Returns whether it computes beside the processor: neither a CPU path nor a software device.
   virtual bool is_hardware() const { return false; }
 
   virtual std::vector<EdgePoint> detect_edges(const ImageView& image,
                                               const EdgeOptions& options) = 0;
-  // `image` may be empty (width 0): then Psi, edge support and shading are 0 in this view.
-  // InputError naming the size: a tensor or an image too large for the memory or the device.
+  // Makes the tensors of a view. `image` may be empty (width 0): then Psi, edge support and shading
+  // are 0 in this view. InputError naming the size: a tensor or an image too large for the memory
+  // or the device.
   virtual ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height,
                                const ImageView& image, const Intrinsics& intrinsics,
                                const TensorOptions& options) = 0;
   virtual void template_score(const BackendView& view, std::span<const TemplatePoint> points,
                               std::span<const TemplateJob> jobs, int anchor_step,
                               std::span<TemplateHit> hits) = 0;
-  // LogicError where check_template_points() throws. GpuError where one binding does not take them.
+  // Copies model points and returns them. LogicError where check_template_points() throws. GpuError
+  // where one binding does not take them.
   virtual ModelPointsHandle make_model_points(std::span<const ModelPoint> points) = 0;
   virtual void template_project(const BackendModelPoints& points,
                                 std::span<const TemplateProjectJob> jobs,
                                 const TemplateProjectOptions& options,
                                 std::span<TemplatePoint> projected,
                                 std::span<std::uint32_t> too_near) = 0;
-  // `hits`: [region][place of the template].
+  // Scans templates over regions of a view. `hits`: [region][place of the template].
   virtual void template_scan(const BackendView& view, const BackendModelPoints& points,
                              const TemplateScan& scan, std::span<TemplateHit> hits) = 0;
   virtual void pose_normal_equations(std::span<const ViewHandle> views,
@@ -151,7 +153,8 @@ class Backend {
   virtual void pose_score(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
                           std::span<const PoseProblem> problems, const PoseScoreOptions& options,
                           std::span<PoseScore> out) = 0;
-  // Copies the values. InputError naming the size: too large for the memory or the device.
+  // Copies a depth image and returns it. InputError naming the size: too large for the memory or
+  // the device.
   virtual DepthHandle make_depth(const DepthView& depth) = 0;
   virtual SurfacePointsHandle make_surface_points(Unfilled<SurfacePoint> points) = 0;
   virtual void pose_depth(std::span<const DepthHandle> views, const BackendSurfacePoints& points,
@@ -173,20 +176,20 @@ class Backend {
   virtual ChamferHandle combination_chamfer(const ChamferView& view,
                                             const CombinationBits& combinations,
                                             const ChamferOptions& options) = 0;
-  // Of one view, nats.
+  // Returns the mutual information of one view, nats.
   virtual double mutual_information(const BackendChamfer& chamfer,
                                     std::span<const ParticleBelief> beliefs,
                                     const InformationOptions& options) = 0;
-  // What combination_chamfer and mutual_information give of each view, nats: all views side by
-  // side.
+  // Returns what combination_chamfer and mutual_information give of each view, nats: all views side
+  // by side.
   virtual std::vector<double> view_information(std::span<const ChamferView> views,
                                                const CombinationBits& combinations,
                                                const ChamferOptions& chamfer,
                                                std::span<const ParticleBelief> beliefs,
                                                const InformationOptions& information) = 0;
-  // The threads host code may use beside the kernels.
+  // Returns the threads that host code may use beside the kernels.
   virtual ThreadPool& threads() = 0;
-  // Since the backend was made. All 0 on the CPU.
+  // Returns what the device did since the backend was made. All 0 on the CPU.
   virtual DeviceWork device_work() const { return {}; }
 
   std::vector<StageTime> take_timings();
@@ -210,7 +213,8 @@ struct DeviceInfo {
   std::uint64_t max_storage_buffer_bytes = 0;
 };
 
-// Empty where there is no Vulkan loader, no device, or the project was built without Vulkan.
+// Lists the Vulkan devices. Empty where there is no Vulkan loader, no device, or the project was
+// built without Vulkan.
 std::vector<DeviceInfo> vulkan_devices();
 
 struct BackendOptions {
@@ -221,19 +225,20 @@ struct BackendOptions {
 
 std::unique_ptr<Backend> make_cpu_backend(int threads = 0);
 std::unique_ptr<Backend> make_reference_backend();
-// Throws GpuError where the device is missing or lacks a feature the kernels need, InputError where
-// the project was built without Vulkan.
+// Opens a Vulkan device. Throws GpuError where the device is missing or lacks a feature the kernels
+// need, InputError where the project was built without Vulkan.
 std::unique_ptr<Backend> make_vulkan_backend(int device_index, const BackendOptions& options = {});
 
-// In the order in which they are tried: discrete cards, other hardware, software devices; of a kind
-// in the order they came.
+// Returns the devices in the order in which they are tried: discrete cards, other hardware,
+// software devices; of a kind in the order they came.
 std::vector<DeviceInfo> in_order_of_use(std::vector<DeviceInfo> devices);
-// The first in that order, 0 where there is none.
+// Returns the index of the first in that order, 0 where there is none.
 int usual_vulkan_device();
 
-// "auto", "cpu", "cpu-reference", "vulkan" (the usual device) or "vulkan:INDEX"; auto takes the
-// first hardware Vulkan device in the order of use that can be opened, else the fast CPU path.
-// Throws InputError on another word and where the device asked for does not exist.
+// Makes the backend of a word: "auto", "cpu", "cpu-reference", "vulkan" (the usual device) or
+// "vulkan:INDEX"; auto takes the first hardware Vulkan device in the order of use that can be
+// opened, else the fast CPU path. Throws InputError on another word and where the device asked for
+// does not exist.
 std::unique_ptr<Backend> make_backend(const std::string& choice,
                                       const BackendOptions& options = {});
 

@@ -18,8 +18,8 @@ struct DeviceWork {
   std::uint64_t timed = 0;         // dispatches whose time was taken
   double timed_seconds = 0;        // of these, on the device's clock
 
-  // Of all dispatches; nothing where the time of one was not taken: a backend takes times only
-  // where BackendOptions::time_kernels asks for them and its device has a clock.
+  // Returns the time of all dispatches; nothing where the time of one was not taken: a backend
+  // takes times only where BackendOptions::time_kernels asks for them and its device has a clock.
   std::optional<double> kernel_seconds() const {
     return timed == dispatches ? std::optional(timed_seconds) : std::nullopt;
   }
@@ -37,7 +37,7 @@ inline DeviceWork& operator+=(DeviceWork& sum, const DeviceWork& more) {
   return sum;
 }
 
-// What was done from `before` to `now`.
+// Returns what was done from `before` to `now`.
 inline DeviceWork operator-(const DeviceWork& now, const DeviceWork& before) {
   return {now.submits - before.submits,
           now.dispatches - before.dispatches,

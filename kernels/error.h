@@ -21,7 +21,7 @@ class LogicError : public std::logic_error {
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message) : std::runtime_error(message) {}
-  // "FILE: FIELD: found FOUND, expected EXPECTED"
+  // Writes the message "FILE: FIELD: found FOUND, expected EXPECTED"
   InputError(const std::string& file, const std::string& field, const std::string& found,
              const std::string& expected)
       : std::runtime_error(file + ": " + field + ": found " + found + ", expected " + expected) {}

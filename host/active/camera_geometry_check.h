@@ -29,19 +29,20 @@ struct CameraPoseProblem {
   std::string likely_cause;     // a change of all poses after which all see one place; empty: none
 };
 
-// `searched`: distances from the cameras at which objects are searched; the check allows twice as
-// much at both ends. Nothing for fewer than two cameras, and for all cameras that see one place in
-// common and stand apart. A row of cameras of which only neighbours see a place in common is
-// reported only if inverted poses, or lengths 1000 times as large, make all see one place.
+// Returns what is wrong with the cameras' poses. `searched`: distances from the cameras at which
+// objects are searched; the check allows twice as much at both ends. Nothing for fewer than two
+// cameras, and for all cameras that see one place in common and stand apart. A row of cameras of
+// which only neighbours see a place in common is reported only if inverted poses, or lengths 1000
+// times as large, make all see one place.
 std::optional<CameraPoseProblem> camera_pose_problem(std::span<const PosedCamera> cameras,
                                                      const DistanceRange& searched);
 
-// The numbers of the cameras that see no place in common with another one.
+// Returns the numbers of the cameras that see no place in common with another one.
 std::vector<std::size_t> cameras_alone(std::span<const PosedCamera> cameras,
                                        const DistanceRange& searched);
 
-// InputError naming `source` where nothing is shared; else logs a warning of any problem, and of
-// single cameras that share nothing.
+// Checks that the cameras see a place in common. InputError naming `source` where nothing is
+// shared; else logs a warning of any problem, and of single cameras that share nothing.
 void check_camera_poses(std::span<const PosedCamera> cameras, const DistanceRange& searched,
                         const std::string& source);
 

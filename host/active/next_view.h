@@ -72,15 +72,15 @@ struct NextViewOptions {
   std::uint64_t seed = 1;                   // of Strategy::Random
   void validate() const;                    // InputError naming the field and the violated bound
 };
-// Whether views are valued in nats: by information, and not by the paper's own formula. Only then
-// do shares, exploration bonus and motion costs apply.
+// Returns whether views are valued in nats: by information, and not by the paper's own formula.
+// Only then do shares, exploration bonus and motion costs apply.
 bool is_in_nats(const NextViewOptions& options);
 
-// How the next view is chosen, for the verb that moves a camera.
+// Names to `visit` how the next view is chosen, for the verb that moves a camera.
 void describe_strategy(NextViewOptions& options, OptionVisitor& visit);
-// What the expected information is computed with.
+// Names to `visit` what the expected information is computed with.
 void describe(NextViewOptions& options, OptionVisitor& visit);
-// Variants that the experiments compare with the defaults.
+// Names to `visit` the variants that the experiments compare with the defaults.
 void describe_ablations(NextViewOptions& options, OptionVisitor& visit);
 
 // Everything that a decision depends on. Refers to data of the caller.
@@ -112,15 +112,15 @@ struct ViewInformation {
   double value() const { return expected() - motion_cost; }
 };
 
-// One per possible view. The information is 0 without particles, candidates or combinations, and
-// for views that see nothing of them. Where it is 0 for all open views, a warning is logged.
-// InputError: options out of bounds; LogicError: another number of tables or of `closed`,
-// combinations of other candidates.
+// Returns what is expected of each possible view. The information is 0 without particles,
+// candidates or combinations, and for views that see nothing of them. Where it is 0 for all open
+// views, a warning is logged. InputError: options out of bounds; LogicError: another number of
+// tables or of `closed`, combinations of other candidates.
 std::vector<ViewInformation> view_information(const NextViewProblem& problem,
                                               const NextViewOptions& options);
 
-// The open view of the largest value; of equal ones that with the largest share, which is high and
-// far from the views taken. Nothing where no view is open.
+// Returns the open view of the largest value; of equal ones that with the largest share, which is
+// high and far from the views taken. Nothing where no view is open.
 std::optional<int> best_view(std::span<const ViewInformation> views);
 
 }  // namespace edgescout

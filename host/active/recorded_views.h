@@ -19,8 +19,8 @@ class RecordedViews : public ViewSource {
     std::filesystem::path file;
     Se3 camera_from_world;
   };
-  // A camera of size 0 x 0 takes the size of the first readable image. InputError: no recording,
-  // none that can be read, an invalid camera.
+  // Makes a source of recordings. A camera of size 0 x 0 takes the size of the first readable
+  // image. InputError: no recording, none that can be read, an invalid camera.
   RecordedViews(const Camera& camera, std::vector<Recording> recordings);
   Camera camera() const override { return camera_; }
   std::vector<Se3> views() const override;

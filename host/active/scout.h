@@ -34,13 +34,14 @@ class Cancelled : public std::runtime_error {
 
 class Scout {
  public:
-  // `camera` takes every image; `sets` and `backend` must outlive this object. InputError: options
-  // out of bounds, no object, no view, views that are the same or not rigid.
+  // Begins without an image. `camera` takes every image; `sets` and `backend` must outlive this
+  // object. InputError: options out of bounds, no object, no view, views that are the same or not
+  // rigid.
   Scout(std::span<const TemplateSet> sets, const Camera& camera,
         std::vector<Se3> camera_from_world_views, const ScoutOptions& options, Backend& backend);
 
-  // The next view, and what is expected of each. Nothing where an end is reached: state().end says
-  // which. Called again without a new image or failure, it returns the same.
+  // Returns the next view, and what is expected of each. Nothing where an end is reached:
+  // state().end says which. Called again without a new image or failure, it returns the same.
   std::optional<ScoutDecision> propose();
 
   // Adds the image from a view, which need not be the proposed one. The camera stood where the view
@@ -52,8 +53,8 @@ class Scout {
   // Checks whether `give` would accept the shot. InputError: image or depth of another size than
   // the camera's, of another number of pixels than their size says, a pose that is not rigid.
   void require_fitting(const Shot& shot) const;
-  // The view failed; it is never proposed again. InputError: a view that was taken or failed
-  // before; LogicError: no such view.
+  // Leaves out a view that failed; it is never proposed again. InputError: a view that was taken or
+  // failed before; LogicError: no such view.
   void unreachable(int view, const std::string& reason);
 
   const ScoutState& state() const { return state_; }

@@ -99,22 +99,23 @@ struct ScoutState {
   ScoutDecision last_decision;
   double overruled_seconds = 0;  // of such decisions after which the run was continued
 
-  // One per possible view: nonzero where it was taken or failed.
+  // Returns a number for each possible view: nonzero where it was taken or failed.
   std::vector<char> closed() const;
-  // Computing time of all steps and decisions, with those for failed views; without the arm's
-  // motion.
+  // Returns the computing time of all steps and decisions, with those for failed views; without the
+  // arm's motion.
   double seconds() const;
   // Continues after the end that last_decision was.
   void overrule();
 };
 
-// A versioned binary file (io/binary_file.h), written atomically. Loading throws InputError naming
-// the file: of another kind or version, cut short, a wrong checksum.
+// Writes or reads a versioned binary file (io/binary_file.h). It is written atomically. Loading
+// throws InputError naming the file: of another kind or version, cut short, a wrong checksum.
 void save_scout_state(const ScoutState& state, const std::filesystem::path& file);
 ScoutState load_scout_state(const std::filesystem::path& file);
 
-// InputError naming `source`: `saved` has another camera, other views or objects than `run`, or an
-// index of an object, view or candidate that does not exist.
+// Checks that a saved state is of this run. InputError naming `source`: `saved` has another camera,
+// other views or objects than `run`, or an index of an object, view or candidate that does not
+// exist.
 void require_same_run(const ScoutState& saved, const ScoutState& run, const std::string& source);
 
 }  // namespace edgescout

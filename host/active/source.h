@@ -38,7 +38,7 @@ class ViewSource {
  public:
   virtual ~ViewSource() = default;
   virtual Camera camera() const = 0;  // of every image
-  // camera_from_world of every place that the camera can be sent to.
+  // Returns camera_from_world of every place that the camera can be sent to.
   virtual std::vector<Se3> views() const = 0;
   virtual Shot acquire(int view) = 0;  // throws AcquisitionError
 };

@@ -33,31 +33,33 @@ struct Camera {
   double skew = 0;  // px: u = fx x + skew y + cx
   // Horizontal field of view of the undistorted image. 0: it keeps fx, fy, cx and cy.
   double field_of_view_rad = 0;
-  // Whether undistorted(*this) differs: images must be resampled.
+  // Returns whether undistorted(*this) differs: images must be resampled.
   bool has_distortion() const;
 };
 
-// Both compare bit for bit. Images of one lens may have several sizes.
+// Compares two cameras bit for bit. Images of one lens may have several sizes.
 bool same_intrinsics(const Camera& a, const Camera& b);  // and lens, field of view
 bool same_camera(const Camera& a, const Camera& b);      // intrinsics, lens and size
 
-// InputError naming `source` and the field: a size below 1, a value that is not finite, a focal
-// length that is not positive, a principal point further from the image than one image size.
+// Checks a camera. InputError naming `source` and the field: a size below 1, a value that is not
+// finite, a focal length that is not positive, a principal point further from the image than one
+// image size.
 void validate(const Camera& camera, const std::string& source);
 
-// Ideal (undistorted) projection of a point in the camera frame, z > 0; px.
+// Projects a point in the camera frame, z > 0; returns its ideal (undistorted) pixel.
 Eigen::Vector2d project(const Camera& camera, const Eigen::Vector3d& x_in_camera);
-// Direction (z = 1) of the ray through an undistorted pixel.
+// Returns the direction (z = 1) of the ray through an undistorted pixel.
 Eigen::Vector3d ray_through(const Camera& camera, const Eigen::Vector2d& pixel);
-// How many pixels a length across the line of sight spans, in the middle of the image.
+// Returns how many pixels a length across the line of sight spans, in the middle of the image.
 double size_px(double length_m, double distance_m, const Camera& camera);
-// How far away it spans that many.
+// Returns the distance at which the length spans so many pixels.
 double distance_at_size_m(double length_m, double size_px, const Camera& camera);
-// The pinhole camera of the undistorted image, of the same size. With a chosen field of view its
-// principal point is the middle of the image. LogicError: a chosen field of view without a size.
+// Returns the pinhole camera of the undistorted image, of the same size. With a chosen field of
+// view its principal point is the middle of the image. LogicError: a chosen field of view without a
+// size.
 Camera undistorted(const Camera& camera);
-// The camera of an image resized by `factor`. The new size is rounded. With pixel centres at
-// integers cx' = factor * (cx + 0.5) - 0.5.
+// Returns the camera of an image resized by `factor`. The new size is rounded. With pixel centres
+// at integers cx' = factor * (cx + 0.5) - 0.5.
 Camera scaled(const Camera& camera, double factor);
 
 }  // namespace edgescout

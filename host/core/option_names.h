@@ -7,7 +7,8 @@
 
 namespace edgescout {
 
-// "distance-min" -> "distance_min", its field in C++; or what the interface calls it.
+// Returns how messages name an option: of "distance-min" its field in C++, "distance_min", or what
+// the interface calls it.
 std::string option_name(const std::string& name);
 
 // Sets what option_name returns, for the whole process. The program sets "--distance-min" before

@@ -46,7 +46,8 @@ class OptionTexts : public OptionVisitor {
   void numbers(const OptionInfo& option, std::vector<double>& field, int count, double low,
                double high) override;
   void flag(const OptionInfo& option, bool& field) override;
-  // Its text is that of a flag of its own meaning: "search-alone" is true where the field is false.
+  // Adds an option whose text is that of a flag of its own meaning: "search-alone" is true where
+  // the field is false.
   void off_flag(const OptionInfo& option, bool& field) override;
 
  private:
@@ -59,7 +60,8 @@ class OptionTexts : public OptionVisitor {
   std::string prefix_, group_;
 };
 
-// Of the name, with dashes or underscores. InputError naming the most similar name: none.
+// Returns the option of this name, with dashes or underscores. InputError naming the most similar
+// name: there is none.
 OptionText& option_named(std::vector<OptionText>& options, const std::string& name,
                          const std::string& prefix);
 

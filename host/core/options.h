@@ -31,29 +31,31 @@ struct Range {
   double low = 0, high = 0;
 };
 
-// What a message adds to the bounds of a length whose help says that it is in metres ("Largest
-// distance, m"): " m", and where `found` lies between them as millimetres, the number that was
-// meant. Of another option: nothing.
+// Returns what a message adds to the bounds of a length whose help says that it is in metres
+// ("Largest distance, m"): " m", and where `found` lies between them as millimetres, the number
+// that was meant. Of another option: nothing.
 std::string unit_after_bounds(const std::string& help, double found, double low, double high);
 
 class OptionVisitor {
  public:
   virtual ~OptionVisitor() = default;
-  // Heads what follows: "Detection".
+  // Begins a group, whose name heads what follows: "Detection".
   virtual void group(const char* name) = 0;
-  // Bounds are inclusive.
+  // Names a number. Bounds are inclusive.
   virtual void number(const OptionInfo& option, int& field, int low, int high) = 0;
   virtual void number(const OptionInfo& option, float& field, float low, float high) = 0;
   virtual void number(const OptionInfo& option, double& field, double low, double high) = 0;
-  // Two numbers, the smaller one first. A single number is both ends.
+  // Names two numbers, the smaller one first. A single number is both ends.
   virtual void range(const OptionInfo& option, Range& field, double low, double high) = 0;
-  // `count` numbers, or none: an empty field.
+  // Names `count` numbers, or none: an empty field.
   virtual void numbers(const OptionInfo& option, std::vector<double>& field, int count, double low,
                        double high) = 0;
   virtual void flag(const OptionInfo& option, bool& field) = 0;
-  // Given without a value, it sets the field to false: "search-alone" for detect_jointly.
+  // Names a flag that, given without a value, sets the field to false: "search-alone" for
+  // detect_jointly.
   virtual void off_flag(const OptionInfo& option, bool& field) = 0;
-  // One of the names, in the order of the enumerators. They must outlive the visitor.
+  // Names a choice of one of the names, in the order of the enumerators. They must outlive the
+  // visitor.
   template <typename Enum>
   void choice(const OptionInfo& option, Enum& field, std::span<const char* const> names) {
     index(option, {[&field] { return int(field); }, [&field](int i) { field = Enum(i); }}, names);
@@ -83,9 +85,10 @@ class BoundsCheck : public OptionVisitor {
                double high) override;
   void flag(const OptionInfo&, bool&) override {}
   void off_flag(const OptionInfo&, bool&) override {}
-  // The same error for a field that is no option, or for a bound that depends on another field.
+  // Throws the same error for a field that is no option, or for a bound that depends on another
+  // field.
   void require(const char* name, double found, double low, double high) const;
-  // The same error in other words than those of bounds.
+  // Throws the same error in other words than those of bounds.
   [[noreturn]] void fail(const char* name, const std::string& found,
                          const std::string& expected) const;
 
@@ -96,7 +99,7 @@ class BoundsCheck : public OptionVisitor {
   std::string prefix_;
 };
 
-// validate() of an options struct that has a `describe`.
+// Checks the bounds of an options struct that has a `describe`.
 template <typename Options>
 void check_bounds(const Options& options, const char* prefix) {
   Options copy = options;  // describe binds fields that may be written

@@ -17,10 +17,10 @@ inline constexpr double CORRECT_ANGLE_RAD = 0.1;
 inline constexpr double CORRECT_DISTANCE_M = 0.005;
 inline constexpr double CORRECT_MSPD_PX = 10;
 
-// Maximum symmetry-aware surface distance, m: min over symmetries S of the max over vertices x of
-// |P x - T S x|.
+// Returns the maximum symmetry-aware surface distance, m: min over symmetries S of the max over
+// vertices x of |P x - T S x|.
 double mssd_m(const Se3& estimate, const Se3& truth, const Object& object);
-// The same in the image, px (both poses camera_from_object).
+// Returns the same in the image, px (both poses camera_from_object).
 double mspd_px(const Se3& estimate, const Se3& truth, const Object& object, const Camera& camera);
 // Rotation and translation error at the symmetry for which the pair passes the bounds most easily:
 // with the smallest max of angle and distance, each divided by its bound. Of equal ones, the
@@ -32,7 +32,7 @@ struct PoseError {
               double max_distance_m = CORRECT_DISTANCE_M) const {
     return angle_rad < max_angle_rad && distance_m < max_distance_m;
   }
-  // The larger of both errors, each divided by its bound: below 1 if the pose is correct.
+  // Returns the larger of both errors, each divided by its bound: below 1 if the pose is correct.
   double of_bounds(double max_angle_rad = CORRECT_ANGLE_RAD,
                    double max_distance_m = CORRECT_DISTANCE_M) const {
     return std::max(angle_rad / max_angle_rad, distance_m / max_distance_m);

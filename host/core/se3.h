@@ -30,25 +30,26 @@ Se3 operator*(const Se3& c_from_b, const Se3& b_from_a);
 Eigen::Vector3d operator*(const Se3& b_from_a, const Eigen::Vector3d& x_in_a);
 Se3 inverse(const Se3& b_from_a);
 
-// Orthonormalises `rotation`. InputError where it is not orthonormal with determinant +1 to 1e-3.
+// Returns the pose of a rotation matrix, which it orthonormalises, and a translation. InputError
+// where it is not orthonormal with determinant +1 to 1e-3.
 Se3 se3_from_matrix(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation_m);
 
 Eigen::Quaterniond so3_exp(const Eigen::Vector3d& rotation_rad);
 Eigen::Vector3d so3_log(const Eigen::Quaterniond& rotation);  // angle in [0, pi]
 
 Se3 retract(const Se3& b_from_a, const Vector6d& delta);
-// As retract, but turns about `center_m` (object frame), which moves by delta.head<3>(). Use it for
-// objects whose origin may lie far from their middle.
+// Moves a pose as retract does, but turns about `center_m` (object frame), which moves by
+// delta.head<3>(). Use it for objects whose origin may lie far from their middle.
 Se3 retract_about(const Se3& b_from_a, const Eigen::Vector3d& center_m, const Vector6d& delta);
-// The covariance of a delta of retract_about, from that of a delta of retract.
+// Returns the covariance of a delta of retract_about, from that of a delta of retract.
 Matrix6d covariance_about(const Se3& b_from_a, const Eigen::Vector3d& center_m,
                           const Matrix6d& covariance);
-// The d with retract(from, d) == to.
+// Returns the d with retract(from, d) == to.
 Vector6d local_coordinates(const Se3& from, const Se3& to);
 
 bool is_finite(const Se3& transform);
-// InputError naming `source` and `field`: a value that is not finite, a quaternion whose length is
-// not 1 to 1e-3.
+// Checks a pose. InputError naming `source` and `field`: a value that is not finite, a quaternion
+// whose length is not 1 to 1e-3.
 void require_rigid(const Se3& transform, const std::string& source, const std::string& field);
 
 double angle_between_rad(const Se3& a, const Se3& b);

@@ -17,7 +17,7 @@ struct StageSeconds {
   std::string name;
   double seconds = 0;
   DeviceWork device{};  // all 0 on the CPU
-  // Beside the device's kernels; nothing where these were not timed.
+  // Returns the time beside the device's kernels; nothing where these were not timed.
   std::optional<double> host_seconds() const {
     const std::optional<double> in_kernels = device.kernel_seconds();
     return in_kernels ? std::optional(seconds - *in_kernels) : std::nullopt;

@@ -32,7 +32,7 @@ struct TimeLimit {
   bool is_over() const { return is_cancelled() || (deadline && Clock::now() >= *deadline); }
 };
 
-// The same limit, which stays over once it was, whatever `cancelled` returns later.
+// Returns the same limit, which stays over once it was, whatever `cancelled` returns later.
 inline TimeLimit latched(const TimeLimit& limit) {
   if (!limit.cancelled) return limit;
   return {limit.deadline, [cancelled = limit.cancelled, was = std::make_shared<bool>(false)] {

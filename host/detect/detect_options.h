@@ -33,10 +33,11 @@ struct DetectOptions {
   void validate() const;  // InputError naming the field and the violated bound
 };
 
-// Every option of detection in single images but those of scan.world, edge_claims and refine, which
-// have their own describe.
+// Names to `visit` every option of detection in single images but those of scan.world, edge_claims
+// and refine, which have their own describe.
 void describe(DetectOptions& options, OptionVisitor& visit);
-// Parts of them that other verbs also have: the search, and of it the numbers of hits and poses.
+// Names the parts of them that other verbs also have: the search, and of it the numbers of hits and
+// poses.
 void describe_search(DetectOptions& options, OptionVisitor& visit);
 void describe_hits(DetectOptions& options, OptionVisitor& visit);
 

@@ -34,10 +34,10 @@ struct SelectionTrace {
   std::vector<Detection> selected;  // most probable first; max_detections of them are reported
 };
 
-// Whether both are copies of one estimate.
+// Returns whether both are copies of one estimate.
 bool is_copy(const ObjectPose& a, const ObjectPose& b);
 
-// The selected poses with their features. LogicError: a selected pose did not compete.
+// Returns the selected poses with their features. LogicError: a selected pose did not compete.
 std::vector<PoseEstimate> selected_estimates(const SelectionTrace& selection);
 
 struct DetectTrace {

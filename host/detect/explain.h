@@ -72,7 +72,7 @@ struct EdgesReport {
   double visible = 0;   // number of points that the pose shows, inside the image or not
   double in_image = 0;  // of these: inside the image
   EdgeSupport support;
-  // Whether the image tells the pose from its surroundings.
+  // Returns whether the image tells the pose from its surroundings.
   bool exceeds_copies() const { return support.support > support.best_displaced; }
 };
 
@@ -152,8 +152,8 @@ struct LossReport {
 };
 
 // Follows `given`, in the camera frame, through a detection in one image (detect_objects) with
-// these options. `set` is that of the given object. scene.models are those of all sets, scene.views
-// is trace.view alone.
+// these options, and returns the stage that lost it, with its numbers. `set` is that of the given
+// object. scene.models are those of all sets, scene.views is trace.view alone.
 //
 // InputError: a pose that is not rigid, not in front of the camera, or of which the image shows no
 // edge; options out of bounds. LogicError: an object that is not in the trace, a trace of several

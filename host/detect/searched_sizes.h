@@ -20,14 +20,15 @@ SearchedSizes searched_sizes(double diameter_m, const TemplateOptions& options,
 // An object of at least this size has a shape; below, any edges of the image match it.
 inline constexpr double LEAST_SIZE_PX = 8;
 
-// InputError naming the object, its sizes and what may be wrong: it spans less than LEAST_SIZE_PX
-// at every searched distance, or the camera would stand inside it.
+// Checks the sizes that are searched. InputError naming the object, its sizes and what may be
+// wrong: it spans less than LEAST_SIZE_PX at every searched distance, or the camera would stand
+// inside it.
 void require_searchable_size(const std::string& name, double diameter_m,
                              const TemplateOptions& options, const Camera& camera);
 
-// A sentence for a warning where the object spans less than a twentieth of the image's smaller
-// side, or more than its larger side, at every searched distance, or less than both that twentieth
-// and LEAST_SIZE_PX at the farthest. Else empty.
+// Returns a sentence for a warning where the object spans less than a twentieth of the image's
+// smaller side, or more than its larger side, at every searched distance, or less than both that
+// twentieth and LEAST_SIZE_PX at the farthest. Else empty.
 std::string size_warning(const std::string& name, double diameter_m, const TemplateOptions& options,
                          const Camera& camera);
 

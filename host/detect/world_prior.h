@@ -34,16 +34,17 @@ struct WorldPrior {
   bool is_given() const { return !box_m.empty() || !plane.empty(); }
   Eigen::AlignedBox3d box() const;                    // box_m must be given
   Eigen::Hyperplane<double, 3> lowest_plane() const;  // below `plane` by the tolerance; given
-  // InputError naming the field and the violated bound: also a box without volume and a normal that
-  // is no unit vector.
+  // Checks the prior. InputError naming the field and the violated bound: also a box without volume
+  // and a normal that is no unit vector.
   void validate() const;
 };
 
 void describe(WorldPrior& prior, OptionVisitor& visit);
 
-// Sets distances that are 0 where the prior has a box: from the camera that is nearest to the box
-// to the one that is farthest, as far as the object spans a twentieth of the image's smaller side
-// to all of its larger one. InputError: it does so at none of these distances.
+// Returns the options, with distances that were 0 set where the prior has a box: from the camera
+// that is nearest to the box to the one that is farthest, as far as the object spans a twentieth of
+// the image's smaller side to all of its larger one. InputError: it does so at none of these
+// distances.
 TemplateOptions with_distances_to_box(TemplateOptions options, double diameter_m,
                                       const Camera& camera, const WorldPrior& prior,
                                       std::span<const Se3> camera_from_world);

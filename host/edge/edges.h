@@ -36,7 +36,7 @@ struct EdgesOptions {
 
 void describe(EdgesOptions& options, OptionVisitor& visit);
 
-// "gradient" or "lsd"; InputError on another word.
+// Returns the method named "gradient" or "lsd"; InputError on another word.
 EdgeMethod edge_method_from_name(const std::string& name);
 std::string name_of(EdgeMethod method);
 

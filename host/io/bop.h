@@ -44,13 +44,14 @@ struct BopScene {
 
 std::string six_digits(int number);  // in BOP's names of files and folders: "000012"
 
-// Whether the folder has scene_camera.json or scene_camera_NAME.json.
+// Returns whether the folder has scene_camera.json or scene_camera_NAME.json.
 bool is_bop_scene(const std::filesystem::path& folder);
 
-// The names of the scene's cameras, sorted; "" stands for scene_camera.json and comes first.
+// Returns the names of the scene's cameras, sorted; "" stands for scene_camera.json and comes
+// first.
 std::vector<std::string> bop_cameras(const std::filesystem::path& folder);
 
-// The scene's file for `kind`: "scene_camera", "scene_gt" or "scene_gt_info".
+// Returns the scene's file for `kind`: "scene_camera", "scene_gt" or "scene_gt_info".
 std::filesystem::path bop_file(const std::filesystem::path& folder, const std::string& kind,
                                const std::string& camera_name);
 
@@ -58,7 +59,7 @@ std::filesystem::path bop_file(const std::filesystem::path& folder, const std::s
 // projected to the nearest one, with one warning a file. InputError naming file and field; several
 // cameras and no name.
 BopScene load_bop_scene(const std::filesystem::path& folder, const std::string& camera_name = "");
-// The same without the truth, whose files may be missing or broken.
+// Reads the same without the truth, whose files may be missing or broken.
 BopScene load_bop_images(const std::filesystem::path& folder, const std::string& camera_name = "");
 
 // Enough to find duplicates: a pose is at most 0.05 rad from the next sample.
@@ -83,10 +84,11 @@ struct BopResult {
   double time_s = -1;       // below 0: unknown
   std::string camera_name;  // empty: not told
 };
-// Rows that hold no pose (NaN, a matrix that is no rotation, too few numbers) are left out; one
-// warning counts them and names the first. InputError: the file has rows, and none holds a pose.
+// Reads BOP's results. Rows that hold no pose (NaN, a matrix that is no rotation, too few numbers)
+// are left out; one warning counts them and names the first. InputError: the file has rows, and
+// none holds a pose.
 std::vector<BopResult> load_bop_results(const std::filesystem::path& file);
-// With the column `camera` where a result has a camera.
+// Writes BOP's results, with the column `camera` where a result has a camera.
 void save_bop_results(const std::vector<BopResult>& results,
                       const std::filesystem::path& file);  // atomically
 

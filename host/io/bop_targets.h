@@ -26,7 +26,7 @@ struct BopTarget {
   bool is_group = false;         // im_id is a list
 };
 
-// InputError naming file and field.
+// Reads BOP's list of targets, of any of the three forms. InputError naming file and field.
 std::vector<BopTarget> load_bop_targets(const std::filesystem::path& file);
 
 }  // namespace edgescout

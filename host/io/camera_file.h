@@ -26,10 +26,11 @@ struct FileCamera {
 // field: no camera, a field that looks like a lens or a region and is not understood, a value that
 // is not finite or has another form.
 std::vector<FileCamera> load_cameras(const std::filesystem::path& file);
-// The same of a file's content. `source` names it in errors.
+// Reads the cameras of a file's content. `source` names it in errors.
 std::vector<FileCamera> cameras_in(const std::string& text, const std::string& source);
 
-// Those of the name, or of which it is the last part; all if it is empty. InputError: none.
+// Returns the cameras of this name, or of whose names it is the last part; all if it is empty.
+// InputError: none.
 std::vector<FileCamera> cameras_named(const std::string& name,
                                       const std::vector<FileCamera>& cameras,
                                       const std::string& source);
@@ -41,7 +42,7 @@ using SizePx = std::pair<int, int>;  // width, height
 Camera choose_camera(const std::vector<FileCamera>& cameras, const std::string& name,
                      const std::function<SizePx()>& image_size, const std::string& source);
 
-// The only camera of a file, or that of the name.
+// Reads the only camera of a file, or that of the name.
 Camera load_camera(const std::filesystem::path& file, const std::string& name = "");
 
 // Returns the camera for an image of the given size. The calibration's own size is accepted. A pure

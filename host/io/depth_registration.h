@@ -30,7 +30,8 @@ DepthImage undistort_depth(const DepthImage& depth, const Camera& camera);
 DepthImage register_depth(const DepthImage& depth, const DepthCamera& from, const Camera& grey,
                           ThreadPool& pool);
 
-// register_depth, or undistort_depth where the depth image has the camera of the grey one.
+// Returns the depth image in the grey camera: by register_depth, or by undistort_depth where the
+// depth image has the camera of the grey one.
 DepthImage in_grey_camera(const DepthImage& depth, const std::optional<DepthCamera>& from,
                           const Camera& grey, ThreadPool& pool);
 

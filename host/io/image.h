@@ -12,12 +12,12 @@
 
 namespace edgescout {
 
-// Whether a file's name has one of the endings of images that folders are searched for, in any
-// case: those of all formats that OpenCV decodes.
+// Returns whether a file's name has one of the endings of images that folders are searched for, in
+// any case: those of all formats that OpenCV decodes.
 bool has_image_extension(const std::filesystem::path& file);
 
-// Whether a file of a folder is taken for an image: by the ending of its name, or by its first
-// bytes.
+// Returns whether a file of a folder is taken for an image: by the ending of its name, or by its
+// first bytes.
 bool is_image_file(const std::filesystem::path& file);
 
 // Reads a grey image of 8 bit. The content decides about the format, not the name. Colour images
@@ -27,12 +27,12 @@ bool is_image_file(const std::filesystem::path& file);
 // (found in the header, before it is decoded) or is smaller than 16 x 16 px.
 Image load_image(const std::filesystem::path& file, const ImageOptions& options = {});
 
-// The same of a file's content. `source` names it in errors.
+// Reads the grey image of a file's content. `source` names it in errors.
 Image decode_image(const std::string& bytes, const std::string& source,
                    const ImageOptions& options = {});
 
-// The same of values in memory, row by row: of 16 bit, or real numbers. InputError: another number
-// of values than the size says.
+// Makes a grey image of values in memory, row by row: of 16 bit, or real numbers. InputError:
+// another number of values than the size says.
 Image grey_image(std::span<const std::uint16_t> values, int width, int height,
                  const ImageOptions& options = {});
 Image grey_image(std::span<const float> values, int width, int height,

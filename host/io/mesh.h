@@ -14,7 +14,7 @@ namespace edgescout {
 
 enum class LengthUnit { Millimetre, Centimetre, Metre, Inch };
 
-// "mm", "cm", "m" or "in". InputError: another word.
+// Returns the unit of a word: "mm", "cm", "m" or "in". InputError: another word.
 LengthUnit length_unit(const std::string& word);
 double metres_per(LengthUnit unit);
 
@@ -38,8 +38,8 @@ Mesh load_mesh(const std::filesystem::path& file, std::optional<LengthUnit> unit
 Mesh make_mesh(std::string name, std::vector<Eigen::Vector3d> vertices_m,
                std::vector<std::array<int, 3>> triangles);
 
-// The mesh of make_mesh from its vertices and triangles, which stay as they are. InputError: as
-// make_mesh.
+// Returns the mesh of make_mesh from its vertices and triangles, which stay as they are.
+// InputError: as make_mesh.
 Mesh restore_mesh(std::string name, std::vector<Eigen::Vector3d> vertices_m,
                   std::vector<std::array<int, 3>> triangles);
 

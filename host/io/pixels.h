@@ -50,7 +50,7 @@ struct Pixels {
   bool has_swapped_bytes = false;  // values are not as this machine orders their bytes
 };
 
-// The image that load_image makes of a file of these pixels. `source` names them in errors.
+// Returns the image that load_image makes of a file of these pixels. `source` names them in errors.
 // InputError: no pixels, less than 16x16 or more than 2^28 of them, a stride that is shorter than a
 // row; a pattern in the options beside one in the format; a format of depth images alone.
 Image grey_image(const Pixels& pixels, const ImageOptions& options = {},

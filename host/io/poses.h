@@ -29,7 +29,8 @@ struct StartPose {
   double score = 0;  // as written; registration does not use it
 };
 
-// InputError naming file, line or field.
+// Reads start poses: a CSV file of results, a result file, or a list. InputError naming file, line
+// or field.
 std::vector<StartPose> load_start_poses(const std::filesystem::path& file);
 
 struct PosedImage {

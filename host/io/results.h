@@ -41,7 +41,7 @@ struct ImageResult {
   std::vector<Detection> detections;
 };
 
-// Writes atomically. A number that is not finite becomes null. The fields:
+// Writes a result file, atomically. A number that is not finite becomes null. The fields:
 //   edgescout_result   version of the format: 3
 //   image, scene_id, image_id, device, camera
 //   camera_name        only of a BOP scene with several cameras

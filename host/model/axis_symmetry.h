@@ -11,16 +11,17 @@
 
 namespace edgescout {
 
-// A word is an axis of the object frame and the order of the symmetry about it: "z2" is a half turn
-// about z, "x4" four quarter turns. An axis alone ("z") is a surface of revolution, sampled in
-// `continuous_steps` turns. The axes pass through the surface's centroid, which every symmetry of a
-// surface keeps. Several words give the group that their turns generate ("x4 z4": the 24 of a
-// cube). Each surface of revolution multiplies it by its samples. InputError: another word, turns
-// that generate no finite group.
+// Returns the symmetries that words name. A word is an axis of the object frame and the order of
+// the symmetry about it: "z2" is a half turn about z, "x4" four quarter turns. An axis alone ("z")
+// is a surface of revolution, sampled in `continuous_steps` turns. The axes pass through the
+// surface's centroid, which every symmetry of a surface keeps. Several words give the group that
+// their turns generate ("x4 z4": the 24 of a cube). Each surface of revolution multiplies it by its
+// samples. InputError: another word, turns that generate no finite group.
 Symmetries axis_symmetries(const Mesh& mesh, std::span<const std::string> words,
                            int continuous_steps = 64);
 
-// Of transforms that map the object onto itself. The identity comes first, given or not.
+// Returns the symmetries of transforms that map the object onto itself. The identity comes first,
+// given or not.
 Symmetries symmetries_of_transforms(std::vector<Se3> transforms);
 
 }  // namespace edgescout

@@ -55,7 +55,8 @@ struct EdgeModel {
   TriangleMesh triangle_mesh() const { return {occluding.vertices_m, occluding.triangles}; }
 };
 
-// InputError: options out of their bounds; the mesh shows no edge from anywhere.
+// Finds the edges that a mesh can show and returns the model. InputError: options out of their
+// bounds; the mesh shows no edge from anywhere.
 EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options = {});
 
 // Appends the samples of an edge between two points. A segment shorter than the step (of a finely
@@ -64,8 +65,8 @@ EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options = {}
 void add_raster_points(const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m,
                        double raster_step_m, std::vector<RasterPoint>& points);
 
-// A checksum of mesh, creases and raster step. Batches of results and states of active detection
-// carry it: they are refused with a model of another fingerprint.
+// Returns a checksum of mesh, creases and raster step. Batches of results and states of active
+// detection carry it: they are refused with a model of another fingerprint.
 std::uint64_t fingerprint(const EdgeModel& model);
 
 }  // namespace edgescout

@@ -21,8 +21,9 @@ struct MeshQuality {
 
 MeshQuality mesh_quality(const EdgeModel& model);
 
-// One line that names the mesh and what is wrong with it: more than a tenth of the drawn length is
-// open border, more than half is in short edges, or a winding is inconsistent. Else empty.
+// Returns one line that names the mesh and what is wrong with it: more than a tenth of the drawn
+// length is open border, more than half is in short edges, or a winding is inconsistent. Else
+// empty.
 std::string mesh_warning(const EdgeModel& model);
 
 // Logs mesh_warning where there is one.

@@ -12,7 +12,7 @@
 
 namespace edgescout {
 
-// $XDG_CACHE_HOME/edgescout/templates, without an absolute XDG_CACHE_HOME
+// Returns $XDG_CACHE_HOME/edgescout/templates, without an absolute XDG_CACHE_HOME
 // $HOME/.cache/edgescout/templates. Empty: HOME is not an absolute path either.
 std::filesystem::path default_template_folder();
 
@@ -24,7 +24,7 @@ struct TemplateCacheOptions {
   void validate() const;  // InputError naming the field and the violated bound
 };
 
-// Without the folder and the program, which are no numbers.
+// Names the options to `visit`, without the folder and the program, which are no numbers.
 void describe(TemplateCacheOptions& options, OptionVisitor& visit);
 
 struct CachedTemplates {
@@ -39,7 +39,8 @@ class FileCache;
 // TemplateCache.
 class TemplateCache {
  public:
-  // InputError: options out of bounds. The folder is made when the first templates are written.
+  // Opens the cache. InputError: options out of bounds. The folder is made when the first templates
+  // are written.
   explicit TemplateCache(const TemplateCacheOptions& options = {});
   TemplateCache(TemplateCache&&) noexcept;
   TemplateCache& operator=(TemplateCache&&) noexcept;

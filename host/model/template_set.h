@@ -32,14 +32,14 @@ struct TemplateOptions {
 
 void describe(TemplateOptions& options, OptionVisitor& visit);
 
-// Sets distances that are 0: from where the object's diameter spans the image's larger side to
-// where it spans a twentieth of it, a range of 20 : 1 in four scales. InputError: an object so
-// large, as one of a wrong unit, that they are beyond what an option may say.
+// Returns the options with distances that were 0 set: from where the object's diameter spans the
+// image's larger side to where it spans a twentieth of it, 20 : 1 in four scales. InputError: an
+// object so large, as one of a wrong unit, that they are beyond what an option may say.
 TemplateOptions with_default_distances(TemplateOptions options, double diameter_m,
                                        const Camera& camera);
 
-// InputError naming the object: the nearest distance is more than a thousand times its diameter, as
-// where one of them is in millimetres.
+// Checks the distances. InputError naming the object: the nearest distance is more than a thousand
+// times its diameter, as where one of them is in millimetres.
 void require_distances_of_size(const std::string& name, double diameter_m,
                                const TemplateOptions& options);
 
@@ -49,14 +49,14 @@ struct DistanceRange {
   double middle_m() const { return std::sqrt(min_m * max_m); }
 };
 
-// The scales of the options' distances, nearest first: parts of an equal ratio of at most 2.5 : 1.
-// Each is searched on a tensor that is reduced to suit the object's size there.
+// Returns the scales of the options' distances, nearest first: parts of an equal ratio of at most
+// 2.5 : 1. Each is searched on a tensor that is reduced to suit the object's size there.
 std::vector<DistanceRange> distance_scales(const TemplateOptions& options);
-// Of the templates of one scale: both ends and, ascending, what lies at most options.distance_ratio
-// apart between them.
+// Returns the distances of the templates of one scale: both ends and, ascending, what lies at most
+// options.distance_ratio apart between them.
 std::vector<double> template_distances_m(const TemplateOptions& options,
                                          const DistanceRange& scale);
-// The same of all scales, one after the other.
+// Returns those of all scales, one after the other.
 std::vector<double> template_distances_m(const TemplateOptions& options);
 
 struct TemplateView {
@@ -72,22 +72,22 @@ struct TemplateSet {
   std::vector<TemplateView> views;
 };
 
-// Calls `progress` with (views done, all views) from this thread. InputError: options out of
-// bounds, distances that require_distances_of_size refuses, no viewpoint that shows an edge.
-// LogicError: distances that are not set.
+// Builds the templates of an object. Calls `progress` with (views done, all views) from this
+// thread. InputError: options out of bounds, distances that require_distances_of_size refuses, no
+// viewpoint that shows an edge. LogicError: distances that are not set.
 TemplateSet build_templates(const Object& object, const TemplateOptions& options, Backend& backend,
                             const std::function<void(int, int)>& progress = {});
 
-// The set of an object that is registered or followed from given poses: it has no views, so it
-// cannot be searched for. InputError: the mesh shows no edge from anywhere.
+// Returns the set of an object that is registered or followed from given poses: it has no views, so
+// it cannot be searched for. InputError: the mesh shows no edge from anywhere.
 TemplateSet without_views(const Object& object);
 
-// One file: magic, version, length, checksum, payload. It holds the mesh, so a set needs no other
-// file. Saving is atomic. Loading throws InputError naming the file: cut short, of another version,
-// with a wrong checksum, or no template file.
+// Writes or reads one file: magic, version, length, checksum, payload. It holds the mesh, so a set
+// needs no other file. Saving is atomic. Loading throws InputError naming the file: cut short, of
+// another version, with a wrong checksum, or no template file.
 void save_templates(const TemplateSet& set, const std::filesystem::path& file);
 TemplateSet load_templates(const std::filesystem::path& file);
-// Reads the start of the file. False where it cannot be read.
+// Returns whether the start of a file is that of a template file; false where it cannot be read.
 bool is_template_file(const std::filesystem::path& file);
 
 }  // namespace edgescout

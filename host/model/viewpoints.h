@@ -23,20 +23,20 @@ struct SphereRange {
   bool contains(const Eigen::Vector3d& direction) const;
 };
 
-// Drops directions that a symmetry maps onto others. Keeps the fundamental domain
-// {d : d.w >= (S d).w for all S} for a generic w, widened by `margin_rad`. If every direction of
-// the sphere had a given one within the margin, it has a kept one within the margin, modulo
-// symmetry.
+// Returns the directions without those that a symmetry maps onto others: it keeps the fundamental
+// domain {d : d.w >= (S d).w for all S} for a generic w, widened by `margin_rad`. If every
+// direction of the sphere had a given one within the margin, it has a kept one within the margin,
+// modulo symmetry.
 std::vector<Eigen::Vector3d> modulo_symmetry(const std::vector<Eigen::Vector3d>& directions,
                                              const Symmetries& symmetries, double margin_rad);
 
-// The icosphere's directions in `range`, modulo symmetry. Directions that a symmetry maps into the
-// range count as inside; of equivalent directions one is kept.
+// Returns the icosphere's directions in `range`, modulo symmetry. Directions that a symmetry maps
+// into the range count as inside; of equivalent directions one is kept.
 std::vector<Eigen::Vector3d> viewpoints_in(const SphereRange& range, const Symmetries& symmetries,
                                            int frequency);
 
-// Rotation camera_from_object of a camera that lies at `direction` from the object and looks at it.
-// The roll about the line of sight is arbitrary but fixed.
+// Returns the rotation camera_from_object of a camera that lies at `direction` from the object and
+// looks at it. The roll about the line of sight is arbitrary but fixed.
 Eigen::Quaterniond looking_from(const Eigen::Vector3d& direction);
 
 }  // namespace edgescout

@@ -42,7 +42,7 @@ struct D2coOptions {
   void validate() const;  // InputError naming the field and the violated bound
 };
 
-// Of the options of a registration only the solver is the user's.
+// Names the solver to `visit`: of the options of a registration it alone is the user's.
 void describe_solver(D2coOptions& options, OptionVisitor& visit);
 
 }  // namespace edgescout

@@ -40,14 +40,14 @@ struct ObjectView {
   std::shared_ptr<const Occluders> occluders;  // null: no known objects here
 };
 
-// The reduction that makes `size_px` some 48 px: a whole number in [1, 8]. Fewer hold too little
-// shape, more cost more.
+// Returns the reduction that makes `size_px` some 48 px: a whole number in [1, 8]. Fewer hold too
+// little shape, more cost more.
 double reduction_for(double size_px);
-// The index of the view's reduction that does so best; 0 where it has no reduced tensors.
+// Returns the index of the view's reduction that does so best; 0 where it has no reduced tensors.
 std::size_t level_for(double size_px, const ObjectView& view);
 
-// The same views with the coarse tensor of a level in the place of the full one; a view without
-// reduced tensors stays as it is.
+// Returns the same views with the coarse tensor of a level in the place of the full one; a view
+// without reduced tensors stays as it is.
 std::vector<ObjectView> on_coarse_tensors(std::span<const ObjectView> views, std::size_t level);
 
 }  // namespace edgescout

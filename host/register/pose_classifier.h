@@ -25,11 +25,13 @@ double psi_z_score(const PoseFeatures& features);
 // Adds another view of the same pose.
 void add(Shading& sum, const Shading& other);
 
-// Root mean square of the unexplained deviations divided by that of all deviations, in [0, 1]. 1
-// where too few pixels were compared. Near 1 where the contrast is as weak as the image's noise.
+// Returns the root mean square of the unexplained deviations divided by that of all deviations, in
+// [0, 1]. 1 where too few pixels were compared. Near 1 where the contrast is as weak as the image's
+// noise.
 double unexplained_grey(const Shading& shading);
 
-// Whether a view counts among several: it has 12 points and a fifth of the pose inside the image.
+// Returns whether a view counts among several: it has 12 points and a fifth of the pose inside the
+// image.
 bool is_informative(const PoseFeatures& features);
 
 // Pools the features of one pose over its views (at least one): means weighted by the views'
@@ -37,24 +39,25 @@ bool is_informative(const PoseFeatures& features);
 PoseFeatures pool_over_views(std::span<const PoseFeatures> by_view);
 
 struct PoseClassifier {
-  // Log-odds that registration can bring an aligned pose to a true one, from features of one view
-  // or pooled ones. Without an image: minus the mean tensor value.
+  // Returns the log-odds that registration can bring an aligned pose to a true one, from features
+  // of one view or pooled ones. Without an image: minus the mean tensor value.
   static double rank(const PoseFeatures& features);
-  // The same from all views of a pose. Minus infinity where no view of several is informative.
+  // Returns the same from all views of a pose. Minus infinity where no view of several is
+  // informative.
   static double rank(std::span<const PoseFeatures> by_view);
 
-  // Log-odds that a registered pose is right, from features of one view or pooled ones. Without an
-  // image: minus the mean tensor value.
+  // Returns the log-odds that a registered pose is right, from features of one view or pooled ones.
+  // Without an image: minus the mean tensor value.
   static double log_odds(const PoseFeatures& features);
 
-  // Probability in [0, 1] that a registered pose is right, times the fraction of it that is in the
-  // image and not behind known objects; 0 below 12 points.
+  // Returns the probability in [0, 1] that a registered pose is right, times the fraction of it
+  // that is in the image and not behind known objects; 0 below 12 points.
   static double probability(const PoseFeatures& features);
-  // The same from all views of a pose. Its log-odds are linear in the mean over the informative
-  // views of the log-probability in one view, which lies in [-10, 0]. So they are bounded, a view
-  // that contradicts counts more than one that agrees, and the same views again add nothing. Where
-  // a view has depth, its probability is that times the share of the measured surface that nothing
-  // hides. One informative view: as above; none: 0.
+  // Returns the same from all views of a pose. Its log-odds are linear in the mean over the
+  // informative views of the log-probability in one view, which lies in [-10, 0]. So they are
+  // bounded, a view that contradicts counts more than one that agrees, and the same views again add
+  // nothing. Where a view has depth, its probability is that times the share of the measured
+  // surface that nothing hides. One informative view: as above; none: 0.
   static double probability(std::span<const PoseFeatures> by_view);
 };
 

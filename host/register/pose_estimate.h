@@ -69,8 +69,8 @@ struct PoseEstimate : ObjectPose {
   std::vector<PoseFeatures> features;  // one per view; empty until measured (measure_features)
 };
 
-// The poses alone: starts for what comes next. Takes a range of ObjectPose or of what derives from
-// it.
+// Returns the poses alone: starts for what comes next. Takes a range of ObjectPose or of what
+// derives from it.
 template <typename Poses>
 std::vector<ObjectPose> object_poses(const Poses& poses) {
   return std::vector<ObjectPose>(poses.begin(), poses.end());

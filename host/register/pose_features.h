@@ -23,15 +23,15 @@ struct FeatureOptions {
   VisibilityOptions visibility;
 };
 
-// Rows are poses, columns views.
+// Measures the features of each pose in each view. Rows are poses, columns views.
 Grid<PoseFeatures> features_by_view(const Scene& scene, std::span<const ObjectPose> poses,
                                     const FeatureOptions& options = {});
 
-// The same into PoseEstimate::features.
+// Measures the same into PoseEstimate::features.
 void measure_features(const Scene& scene, std::span<PoseEstimate> poses,
                       const FeatureOptions& options = {});
 
-// Features of each pose pooled over all views.
+// Returns the features of each pose pooled over all views.
 std::vector<PoseFeatures> pooled_features(const Scene& scene, std::span<const ObjectPose> poses,
                                           const FeatureOptions& options = {});
 

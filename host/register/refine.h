@@ -43,8 +43,9 @@ struct RefineOptions {
 
 void describe(RefineOptions& options, OptionVisitor& visit);
 
-// In the order of the starts, with features. The first view's camera frame turns the starts of the
-// search. InputError: options out of bounds; LogicError: no view.
+// Registers the starts and returns an estimate for each, in their order, with features. The first
+// view's camera frame turns the starts of the search. InputError: options out of bounds;
+// LogicError: no view.
 std::vector<PoseEstimate> refine_poses(const Scene& scene, std::span<const ObjectPose> starts,
                                        const RefineOptions& options);
 

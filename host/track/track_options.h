@@ -27,9 +27,9 @@ struct TrackOptions {
   void validate() const;          // InputError naming the field and the violated bound
 };
 
-// Those of tracking alone.
+// Names to `visit` the options of tracking alone.
 void describe(TrackOptions& options, OptionVisitor& visit);
-// Every option, with those of the search.
+// Names to `visit` every option, with those of the search.
 void describe_track(TrackOptions& options, OptionVisitor& visit);
 
 }  // namespace edgescout

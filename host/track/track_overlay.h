@@ -10,8 +10,9 @@
 
 namespace edgescout {
 
-// The undistorted image with the edges and axes of what is tracked or doubtful (draw_overlay), each
-// with its id, its state and Track::above_chance. `camera` is that of the image, with its lens.
+// Returns the undistorted image with the edges and axes of what is tracked or doubtful
+// (draw_overlay), each with its id, its state and Track::above_chance. `camera` is that of the
+// image, with its lens.
 RgbImage draw_tracks(const Image& image, const Camera& camera, std::span<const Track> tracks,
                      std::span<const EdgeModel> models, Backend& backend);
 

@@ -58,9 +58,9 @@ struct TrackFrame {
 
 class Tracker {
  public:
-  // The sets, with or without templates (search() needs them), and the backend outlive the tracker.
-  // With one object a CPU backend is faster than a device. InputError: options out of bounds, a
-  // camera that is none.
+  // Begins without an instance. The sets, with or without templates (search() needs them), and the
+  // backend outlive the tracker. With one object a CPU backend is faster than a device. InputError:
+  // options out of bounds, a camera that is none.
   Tracker(std::span<const TemplateSet> sets, const Camera& camera, Backend& backend,
           const TrackOptions& options = {});
   ~Tracker();
@@ -73,10 +73,10 @@ class Tracker {
   // Forgets an instance. LogicError: no such id.
   void remove(int id);
 
-  // All instances in the new image, in the order of their ids. Objects hide each other as far as
-  // their poses say. InputError: an image of another size than the camera's, or not later than the
-  // last one; depth of another size. LogicError: while another thread is in a call other than
-  // search().
+  // Follows and returns all instances in the new image, in the order of their ids. Objects hide
+  // each other as far as their poses say. InputError: an image of another size than the camera's,
+  // or not later than the last one; depth of another size. LogicError: while another thread is in a
+  // call other than search().
   const std::vector<Track>& update(const TrackFrame& frame);
 
   // Looks for instances that are lost or not yet found, until the limit is over; returns how many
