@@ -1,11 +1,12 @@
 #!/bin/bash
-# Runs the first three sections of docs/evaluation.md (registration, rendered scenes with either edge detector, real photographs) and
-# one detection's time and memory.
+# Runs the first three sections of docs/evaluation.md (registration, rendered scenes with either
+# edge detector, real photographs) and one detection's time and memory.
 #
 #   bench/evaluate.sh BUILD OUT [DATA]
 #
-# BUILD is a build folder (build/release), OUT a folder for results, DATA the folder with d2co-starts, brackets and cat; without it those parts are skipped. DEVICE
-# (default cpu) names the device. Some 25 minutes on two cores.
+# BUILD is a build folder (build/release), OUT a folder for results, DATA the folder with
+# d2co-starts, brackets and cat; without it those parts are skipped. DEVICE (default cpu) names the
+# device. Some 25 minutes on two cores.
 set -euo pipefail
 build=$1 out=$2 data=${3:-} device=${DEVICE:-cpu}
 edgescout=$build/host/cli/edgescout

@@ -1,5 +1,7 @@
-# Writes OUTPUT, a header with the commit of SOURCE, when it changed. Where files under PATHS differ from it, "+changes" and a mark of how: results of
-# two such states are not of one program. Without git a mark of the files alone, "sources-..". Run at every build: the configure step's answer would be stale.
+# Writes OUTPUT, a header with the commit of SOURCE, when it changed. Where files under PATHS differ
+# from it, "+changes" and a mark of how: results of two such states are not of one program. Without
+# git a mark of the files alone, "sources-..". Run at every build: the configure step's answer would
+# be stale.
 execute_process(COMMAND git -C ${SOURCE} rev-parse --short=12 HEAD
                 OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
 if(failed)

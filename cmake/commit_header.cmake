@@ -1,5 +1,5 @@
-# commit_header(TARGET PATH...): TARGET may include "commit.h", which defines EDGESCOUT_COMMIT: the commit it was built from, "+changes" where files
-# under the paths differ from it.
+# commit_header(TARGET PATH...): TARGET may include "commit.h", which defines EDGESCOUT_COMMIT: the
+# commit it was built from, "+changes" where files under the paths differ from it.
 function(commit_header target)
   set(header ${CMAKE_CURRENT_BINARY_DIR}/generated/commit.h)
   add_custom_target(${target}_commit

@@ -1,5 +1,6 @@
-# compile_together(TARGET ALONE_FILE...): with EDGESCOUT_UNITY several sources of TARGET are one to the compiler. The files
-# named stay alone: their anonymous namespaces have names that other files of the target have, too.
+# compile_together(TARGET ALONE_FILE...): with EDGESCOUT_UNITY several sources of TARGET are one to
+# the compiler. The files named stay alone: their anonymous namespaces have names that other files
+# of the target have, too.
 function(compile_together target)
   if(EDGESCOUT_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)

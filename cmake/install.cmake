@@ -1,5 +1,6 @@
-# `cmake --install`: the library, its public headers and the package that find_package(edgescout) reads. The kernels are
-# object code inside the library, so the package has one target: edgescout::edgescout.
+# `cmake --install`: the library, its public headers and the package that find_package(edgescout)
+# reads. The kernels are object code inside the library, so the package has one target:
+# edgescout::edgescout.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/edgescout)
@@ -7,7 +8,8 @@ install(TARGETS edgescout EXPORT edgescout-targets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development)
 install(EXPORT edgescout-targets NAMESPACE edgescout:: DESTINATION ${package_dir} COMPONENT development)
 
-# Headers keep their paths, so that `#include "host/core/types.h"` reads the same inside and outside.
+# Headers keep their paths, so that `#include "host/core/types.h"` reads the same inside and
+# outside.
 include(cmake/public_headers.cmake)
 foreach(header IN LISTS EDGESCOUT_INSTALLED_HEADERS)
   get_filename_component(folder ${header} DIRECTORY)

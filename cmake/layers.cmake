@@ -2,7 +2,8 @@
 #
 # One folder group of the host as an object library edgescout_NAME. It may include headers of the
 # layers it names after USES and of the kernels, nothing else of the host: configuring fails where a
-# file of it includes another layer. Layers can only use layers declared before, so there is no cycle.
+# file of it includes another layer. Layers can only use layers declared before, so there is no
+# cycle.
 function(edgescout_layer name)
   cmake_parse_arguments(layer "" "" "SOURCES;USES;LINKS" ${ARGN})
   foreach(used IN LISTS layer_USES)

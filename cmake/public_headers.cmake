@@ -1,8 +1,8 @@
 # What `cmake --install` installs of the headers, and what the API pages show.
 #
-# Public headers are for users; each says so in its first comment. Support headers are installed only
-# because public ones include them: a program should not include them itself, and they may change in
-# any version.
+# Public headers are for users; each says so in its first comment. Support headers are installed
+# only because public ones include them: a program should not include them itself, and they may
+# change in any version.
 set(EDGESCOUT_PUBLIC_HEADERS
   host/edgescout.h host/pipeline.h host/register_objects.h host/overlay.h
   host/core/camera.h host/core/camera_check.h host/core/depth_image.h host/core/grid.h

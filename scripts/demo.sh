@@ -1,7 +1,8 @@
 #!/bin/bash
-# Installs what is missing, builds, and detects objects: in photographs that Debian ships (package visp-images-data), in the
-# rendered scenes of docs/examples, where the true poses are known, and in a rendered cell where the camera is sent to the
-# views that promise most. Results go to out/demo, made anew at every run.
+# Installs what is missing, builds, and detects objects: in photographs that Debian ships (package
+# visp-images-data), in the rendered scenes of docs/examples, where the true poses are known, and in
+# a rendered cell where the camera is sent to the views that promise most. Results go to out/demo,
+# made anew at every run.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 scripts/setup.sh
@@ -21,7 +22,8 @@ say "a cube on a desk: photographs"
   --camera "$examples/visp/cube_camera.yaml" --distance-min 0.4 --distance-max 0.8 --max-detections 1 \
   --out "$out/cube"
 
-# Where there is no graphics card this is lavapipe, Mesa's software device: right, and slower than the CPU path.
+# Where there is no graphics card this is lavapipe, Mesa's software device: right, and slower than
+# the CPU path.
 say "the first of them on a Vulkan device, looked for where the cube stands: the same pose"
 "$edgescout" detect "$photographs/cube/image0000.pgm" --device vulkan \
   --model "$photographs/cube.cao" --unit m --models-info "$examples/visp/cube_models_info.json" \

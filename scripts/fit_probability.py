@@ -37,7 +37,8 @@ def signed_root(values):
     return np.sign(values) * np.sqrt(np.abs(values))
 
 
-# By field of pose_classifier_weights::OneView: the sign of the weight, and the feature from the columns of the file.
+# By field of pose_classifier_weights::OneView: the sign of the weight, and the feature from the
+# columns of the file.
 FEATURES = {
     "log_psi_z_score": (1, lambda c: np.log(np.maximum(c["psi_z_score"], MIN_PSI_Z_SCORE))),
     "mean_px": (-1, lambda c: c["mean_px"]),

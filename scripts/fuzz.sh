@@ -1,11 +1,11 @@
 #!/bin/bash
-# Gives the readers of files bytes that libFuzzer makes, one reader after the other, on one core that
-# nothing else wants. Prints a row of docs/reliability.md for each.
+# Gives the readers of files bytes that libFuzzer makes, one reader after the other, on one core
+# that nothing else wants. Prints a row of docs/reliability.md for each.
 #   scripts/fuzz.sh [SECONDS] [READER...]   SECONDS for each (default 60); all readers
 #   scripts/fuzz.sh --keep [READER...]      makes the least corpus that reaches what was reached so
 #                                           far, in tests/fuzz/corpus
-# What is found lies in build/fuzz/found; `build/fuzz/tests/fuzz/edgescout_fuzz --reader=READER FILE`
-# shows it again. A second run goes on where the first one ended (build/fuzz/work).
+# What is found lies in build/fuzz/found; `build/fuzz/tests/fuzz/edgescout_fuzz --reader=READER
+# FILE` shows it again. A second run goes on where the first one ended (build/fuzz/work).
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 readers=(stl ply obj off cao camera_text camera_json poses targets results bop_camera bop_truth

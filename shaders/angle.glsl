@@ -1,7 +1,8 @@
 // Angles of undirected lines, alike on every device.
 const float PI = 3.14159265358979;
 
-// |error| <= 2e-7 rad on every device, where the built-in may be off by 4096 ULP (Abramowitz and Stegun 4.4.49).
+// |error| <= 2e-7 rad on every device, where the built-in may be off by 4096 ULP (Abramowitz and
+// Stegun 4.4.49).
 float atan_unit(float t) {
   const float t2 = t * t;
   float p = 0.0028662257;

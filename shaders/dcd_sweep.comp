@@ -42,8 +42,9 @@ void write_smoothed(uint bin) {
   tensor[line_of(bin)] = pack(sum);
 }
 
-// Downwards from bin RADIUS - 1 of the next turn, so that the window is full when the highest bin is written. The first
-// RADIUS values of this turn are needed once more at its end, when their places have been overwritten.
+// Downwards from bin RADIUS - 1 of the next turn, so that the window is full when the highest bin
+// is written. The first RADIUS values of this turn are needed once more at its end, when their
+// places have been overwritten.
 void backward() {
   uvec4 carry = uvec4(push.cap);
   [[dont_unroll]] for (uint s = push.reach; s > 0; --s) carry = advance(carry, (RADIUS + s - 1) % push.bins);

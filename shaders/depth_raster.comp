@@ -20,8 +20,8 @@ struct Triangle {
 shared uint large_count;
 shared Triangle large[DEPTH_GROUP];
 
-// Products written out, for `precise` does not reach into the built-in ones: what two triangles share they must compute
-// alike, to the last bit, or a pixel between them belongs to neither.
+// Products written out, for `precise` does not reach into the built-in ones: what two triangles
+// share they must compute alike, to the last bit, or a pixel between them belongs to neither.
 float dot_of(vec3 a, vec3 b) {
   precise const float sum = a.x * b.x + a.y * b.y + a.z * b.z;
   return sum;
@@ -41,8 +41,8 @@ vec3 corner(uint job, uint triangle, uint k) {
   return vec3(coordinate(row, p), coordinate(row + 4u, p), coordinate(row + 8u, p));
 }
 
-// Zero on the plane through the camera and the edge a b, positive to the left of it. For both triangles at the edge from
-// the end of the lower number on.
+// Zero on the plane through the camera and the edge a b, positive to the left of it. For both
+// triangles at the edge from the end of the lower number on.
 vec3 edge_plane(vec3 a, vec3 b, bool is_rising) {
   precise const vec3 from = is_rising ? a : b, along = is_rising ? b - a : a - b;
   const vec3 plane = cross_of(from, along);

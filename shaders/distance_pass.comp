@@ -16,8 +16,8 @@ const uint ROWS = DISTANCE_ROWS / LANE_ROWS;
 const uint MOST_ROWS = DISTANCE_ROWS / DISTANCE_LEAST_LANE_ROWS;
 const int FAR = 1 << 28;
 
-// round(256 * sqrt(v)) for v < 2^16. The float root may be off by one unit; q is right where (q - 1/2)^2 < 2^16 v < (q + 1/2)^2,
-// in integers q^2 - q < 2^16 v <= q^2 + q.
+// round(256 * sqrt(v)) for v < 2^16. The float root may be off by one unit; q is right where (q -
+// 1/2)^2 < 2^16 v < (q + 1/2)^2, in integers q^2 - q < 2^16 v <= q^2 + q.
 uint root(uint v) {
   uint q = uint(sqrt(float(v)) * 256.0 + 0.5);
   const uint scaled = v << 16;
@@ -31,7 +31,8 @@ uint root(uint v) {
 // The pixels of this invocation: a column of the left and one of the right of each word.
 int left[MOST_ROWS], right[MOST_ROWS];
 
-// |x - s|^2 = dx^2 + sy^2 - 2 r sy + r^2 with sy counted from row y: r^2 is the same for all seeds and is added last.
+// |x - s|^2 = dx^2 + sy^2 - 2 r sy + r^2 with sy counted from row y: r^2 is the same for all seeds
+// and is added last.
 void look_at(uint seed, int x, int y) {
   const int dx = x - int(seed & 0xffffu), sy = int(seed >> 16) - y;
   int a = dx * dx + sy * sy, b = a + 2 * dx + 1;

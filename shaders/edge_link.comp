@@ -16,14 +16,15 @@ layout(binding = 3) buffer Kept { uint kept[]; };
 layout(binding = 4) writeonly buffer Points { vec4 points[]; };
 #include "edge_read.glsl"
 
-// For all passes that write labels: others may shrink the label meanwhile, and a plain read beside an
-// atomic write is a race.
+// For all passes that write labels: others may shrink the label meanwhile, and a plain read beside
+// an atomic write is a race.
 uint label_of(uint i) {
   return atomicLoad(labels[i], gl_ScopeDevice, gl_StorageSemanticsNone, gl_SemanticsRelaxed);
 }
 
-// Labels only ever shrink towards the root, so that a stale read costs a step and no correctness. Every step shortens
-// the way for the next: where all pixels of an edge link at once, it would be as long as the edge.
+// Labels only ever shrink towards the root, so that a stale read costs a step and no correctness.
+// Every step shortens the way for the next: where all pixels of an edge link at once, it would be
+// as long as the edge.
 uint root_of(uint i) {
   uint label = label_of(i);
   [[dont_unroll]] while (label != i) {

@@ -1,4 +1,5 @@
-// The gradient plane as the edge_* shaders read it; the including shader has declared gradient[] and push.width.
+// The gradient plane as the edge_* shaders read it; the including shader has declared gradient[]
+// and push.width.
 struct Across {
   ivec2 axis;  // towards the nearest neighbour across the edge
   ivec2 turn;  // signs of the gradient: towards the diagonal one

@@ -70,7 +70,8 @@ void main() {
     const vec3 by_translation = -inverse * normal, by_rotation = cross(q - translation_m, by_translation);
     const float[6] jacobian = float[6](by_translation.x, by_translation.y, by_translation.z, by_rotation.x,
                                        by_rotation.y, by_rotation.z);
-    // Bounds and places known at compile time: or some drivers leave the loops, and the sums in memory.
+    // Bounds and places known at compile time: or some drivers leave the loops, and the sums in
+    // memory.
     [[unroll]] for (uint a = 0; a < 6; ++a) {
       const float weighted = weight * jacobian[a];
       [[unroll]] for (uint b = 0; b < 6; ++b)

@@ -62,7 +62,8 @@ void main() {
     const Lookup read = tensor_lookup(push.grid, edge.at, undirected_angle(edge.direction));
     const float[6] jacobian = jacobian_of(p, edge, read.slope);
     const vec2 cost_weight = apply_loss(read.value);
-    // Bounds and places known at compile time: or some drivers leave the loops, and the sums in memory.
+    // Bounds and places known at compile time: or some drivers leave the loops, and the sums in
+    // memory.
     [[unroll]] for (uint a = 0; a < 6; ++a) {
       const float weighted = cost_weight.y * jacobian[a];
       [[unroll]] for (uint b = 0; b < 6; ++b)

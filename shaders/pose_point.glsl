@@ -1,5 +1,5 @@
-// One model point under one pose, and the tensor's interpolant at its projection. Included by the pose_* shaders after
-// tensor_read.glsl.
+// One model point under one pose, and the tensor's interpolant at its projection. Included by the
+// pose_* shaders after tensor_read.glsl.
 #include "angle.glsl"
 
 struct PosedPoint {
@@ -29,7 +29,8 @@ ProjectedEdge project_edge(PosedPoint p, PoseCamera camera) {
                        focal * (p.point.z * p.tangent.xy - p.point.xy * p.tangent.z));
 }
 
-// Trilinear, and linear beyond the border: value of the nearest border pixel plus the distance to it.
+// Trilinear, and linear beyond the border: value of the nearest border pixel plus the distance to
+// it.
 Lookup tensor_lookup(TensorGrid grid, vec2 at, float angle) {
   const vec2 last = vec2(float(grid.width) - 1.0, float(grid.height) - 1.0);
   const vec2 inside = clamp(at, vec2(0.0), last);

@@ -1,4 +1,5 @@
-// The pose of a PoseProblem, and what it brings into sight. Included by the pose_* shaders after their buffer of problems.
+// The pose of a PoseProblem, and what it brings into sight. Included by the pose_* shaders after
+// their buffer of problems.
 float word(uint problem, uint i) { return uintBitsToFloat(problems[problem * POSE_PROBLEM_WORDS + i]); }
 
 mat3 rotation_of(uint problem) {
@@ -8,8 +9,8 @@ mat3 rotation_of(uint problem) {
 
 vec3 translation_of(uint problem) { return vec3(word(problem, 3), word(problem, 7), word(problem, 11)); }
 
-// Whether the pose is a place at all, by its bits (finite.glsl): every number below 2^60, far beyond
-// POSE_MAX_RANGE_M and far below what becomes infinite when it is multiplied.
+// Whether the pose is a place at all, by its bits (finite.glsl): every number below 2^60, far
+// beyond POSE_MAX_RANGE_M and far below what becomes infinite when it is multiplied.
 bool is_somewhere(uint problem) {
   [[dont_unroll]] for (uint i = 0; i < 12u; ++i)
     if ((problems[problem * POSE_PROBLEM_WORDS + i] & 0x7f800000u) >= 0x5d800000u) return false;

@@ -18,7 +18,8 @@ shared float sums[POSE_SCORE_SUMS * STRIDE];
 
 #include "pose_problem.glsl"
 
-// |n . g| / |g| of Eq. 10, n the normal of the projected edge; 0 where the gradient is too weak to have a direction.
+// |n . g| / |g| of Eq. 10, n the normal of the projected edge; 0 where the gradient is too weak to
+// have a direction.
 float direction_agreement(ProjectedEdge edge) {
   const uvec2 pixel = uvec2(clamp(ivec2(floor(edge.at + 0.5)), ivec2(0), ivec2(push.grid.width, push.grid.height) - 1));
   const int packed = int(gradient_x2[pixel.y * push.grid.width + pixel.x]);

@@ -26,7 +26,8 @@ float inverse_at(uint at) {
   return finite(z) ? 1.0 / z : 0.0;
 }
 
-// The normal at pixel `at` of the depth maps; false where the nine pixels around are not one smooth surface.
+// The normal at pixel `at` of the depth maps; false where the nine pixels around are not one smooth
+// surface.
 bool normal_at(uint at, vec2 from_centre, ShadingMap map, out vec3 normal) {
   normal = vec3(0.0);
   const float corners = min(min(inverse_at(at - SIZE - 1u), inverse_at(at - SIZE + 1u)),
@@ -86,7 +87,8 @@ void main() {
         float[SHADING_HARMONICS](1.0, normal.x, normal.y, normal.z, normal.x * normal.y, normal.y * normal.z,
                                  normal.z * normal.x, normal.x * normal.x - normal.y * normal.y,
                                  3.0 * normal.z * normal.z - 1.0);
-    // Bounds and places known at compile time: or some drivers leave the loops, and the sums in memory.
+    // Bounds and places known at compile time: or some drivers leave the loops, and the sums in
+    // memory.
     [[unroll]] for (uint a = 0; a < SHADING_HARMONICS; ++a) {
       [[unroll]] for (uint b = 0; b < SHADING_HARMONICS; ++b)
         if (b >= a) total[a * (2u * SHADING_HARMONICS - 1u - a) / 2u + b] += h[a] * h[b];

@@ -1,5 +1,6 @@
-# Installs BUILD_DIR into an empty prefix under WORK_DIR, then configures, builds and runs the project in CONSUMER_DIR
-# against it. CXX_FLAGS: what the library was built with beyond the build type (sanitizers).
+# Installs BUILD_DIR into an empty prefix under WORK_DIR, then configures, builds and runs the
+# project in CONSUMER_DIR against it. CXX_FLAGS: what the library was built with beyond the build
+# type (sanitizers).
 cmake_minimum_required(VERSION 3.25)
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
