@@ -17,18 +17,23 @@ export XDG_CACHE_HOME
 say() { printf '\n== %s\n' "$*"; }
 
 say "detection on rendered scenes: 10 scenes, 3 parts, 6 instances each, clutter and occlusion"
-"$edgescout" render --part l_bracket bearing_block u_channel --scenes 10 --objects 6 --clutter 1 --pile 0.4 --width 800 --height 600 \
+"$edgescout" render --part l_bracket bearing_block u_channel --scenes 10 --objects 6 --clutter 1 \
+  --pile 0.4 --width 800 --height 600 \
   --focal 950 --min-distance 0.35 --max-distance 0.6 --seed 100 --out "$out/rendered"
 for edges in gradient lsd; do
   say "with edges of $edges; summary.json has the time of every stage"
-  "$edgescout" detect "$out/rendered" --model "$out"/rendered/models/*.ply --unit mm --models-info "$out/rendered/models/models_info.json" \
-    --distance-min 0.33 --distance-max 0.66 --min-probability 0.05 --edges $edges --device "$device" --out "$out/rendered_$edges"
-  "$edgescout" eval "$out/rendered_$edges/results.csv" "$out/rendered" --model "$out"/rendered/models/*.ply --unit mm \
+  "$edgescout" detect "$out/rendered" --model "$out"/rendered/models/*.ply --unit mm \
+    --models-info "$out/rendered/models/models_info.json" \
+    --distance-min 0.33 --distance-max 0.66 --min-probability 0.05 --edges $edges \
+    --device "$device" --out "$out/rendered_$edges"
+  "$edgescout" eval "$out/rendered_$edges/results.csv" "$out/rendered" \
+    --model "$out"/rendered/models/*.ply --unit mm \
     --models-info "$out/rendered/models/models_info.json" --min-visible 0.7
 done
 
 say "time and peak memory of one detection in 1024x768"
-"$edgescout" render --part l_bracket --objects 4 --clutter 1 --width 1024 --height 768 --focal 1200 --min-distance 0.4 --max-distance 0.6 \
+"$edgescout" render --part l_bracket --objects 4 --clutter 1 --width 1024 --height 768 \
+  --focal 1200 --min-distance 0.4 --max-distance 0.6 \
   --seed 7 --out "$out/one"
 measure=(/usr/bin/time -f '%e s, %U s of CPU time, %M KiB at most')
 [ -x /usr/bin/time ] || { say "not measured: /usr/bin/time (package time) is missing"; measure=(); }
@@ -53,9 +58,12 @@ registration=$build/bench/edgescout_bench_registration
 bracket() { # SCENE NAME [OPTION...]
   local scene=$1 name=$2
   shift 2
-  "$edgescout" detect "$data/brackets/$scene" --model "$data/brackets/models/obj_000001.ply" --unit mm \
-    --models-info "$data/brackets/models/models_info.json" --distance-min 0.4 --distance-max 0.8 --min-probability 0.05 --device "$device" --out "$out/$name" "$@"
-  "$edgescout" eval "$out/$name/results.csv" "$data/brackets/$scene" --model "$data/brackets/models/obj_000001.ply" --unit mm \
+  "$edgescout" detect "$data/brackets/$scene" --model "$data/brackets/models/obj_000001.ply" \
+    --unit mm \
+    --models-info "$data/brackets/models/models_info.json" --distance-min 0.4 --distance-max 0.8 \
+    --min-probability 0.05 --device "$device" --out "$out/$name" "$@"
+  "$edgescout" eval "$out/$name/results.csv" "$data/brackets/$scene" \
+    --model "$data/brackets/models/obj_000001.ply" --unit mm \
     --models-info "$data/brackets/models/models_info.json"
 }
 say "brackets, single views"
@@ -65,5 +73,7 @@ say "brackets, three views jointly"
 bracket 000001 brackets_joint --joint
 
 say "cat"
-"$edgescout" detect "$data/cat" --model "$data/cat/models/obj_000001.ply" --unit mm --distance-min 0.39 --distance-max 0.78 --min-probability 0.05 --device "$device" --out "$out/cat"
-"$edgescout" eval "$out/cat/results.csv" "$data/cat" --model "$data/cat/models/obj_000001.ply" --unit mm
+"$edgescout" detect "$data/cat" --model "$data/cat/models/obj_000001.ply" --unit mm \
+  --distance-min 0.39 --distance-max 0.78 --min-probability 0.05 --device "$device" --out "$out/cat"
+"$edgescout" eval "$out/cat/results.csv" "$data/cat" --model "$data/cat/models/obj_000001.ply" \
+  --unit mm

@@ -3,7 +3,8 @@
 # git a mark of the files alone, "sources-..". Run at every build: the configure step's answer would
 # be stale.
 execute_process(COMMAND git -C ${SOURCE} rev-parse --short=12 HEAD
-                OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
+                OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE
+                failed)
 if(failed)
   # No repository, or none that git would read: a mark of the sources in its place.
   set(marks "")
@@ -18,7 +19,8 @@ if(failed)
   string(SUBSTRING ${mark} 0 12 mark)
   set(commit "sources-${mark}")
 else()
-  execute_process(COMMAND git -C ${SOURCE} diff HEAD -- ${PATHS} OUTPUT_VARIABLE changes ERROR_QUIET)
+  execute_process(COMMAND git -C ${SOURCE} diff HEAD -- ${PATHS} OUTPUT_VARIABLE changes
+    ERROR_QUIET)
   execute_process(COMMAND git -C ${SOURCE} ls-files --others --exclude-standard -- ${PATHS}
                   OUTPUT_VARIABLE untracked OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
   string(REPLACE "\n" ";" untracked "${untracked}")

@@ -6,20 +6,25 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/edgescout)
 install(TARGETS edgescout EXPORT edgescout-targets 
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development)
-install(EXPORT edgescout-targets NAMESPACE edgescout:: DESTINATION ${package_dir} COMPONENT development)
+install(EXPORT edgescout-targets NAMESPACE edgescout:: DESTINATION ${package_dir}
+  COMPONENT development)
 
 # Headers keep their paths, so that `#include "host/core/types.h"` reads the same inside and
 # outside.
 include(cmake/public_headers.cmake)
 foreach(header IN LISTS EDGESCOUT_INSTALLED_HEADERS)
   get_filename_component(folder ${header} DIRECTORY)
-  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/edgescout/${folder} COMPONENT development)
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/edgescout/${folder}
+    COMPONENT development)
 endforeach()
 
-configure_package_config_file(cmake/edgescout-config.cmake.in ${PROJECT_BINARY_DIR}/edgescout-config.cmake
+configure_package_config_file(cmake/edgescout-config.cmake.in
+  ${PROJECT_BINARY_DIR}/edgescout-config.cmake
                               INSTALL_DESTINATION ${package_dir})
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/edgescout-config-version.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/edgescout-config.cmake ${PROJECT_BINARY_DIR}/edgescout-config-version.cmake
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/edgescout-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/edgescout-config.cmake
+  ${PROJECT_BINARY_DIR}/edgescout-config-version.cmake
         DESTINATION ${package_dir} COMPONENT development)
 # The documents keep their places to each other, so that their links work. Some lead to reports.
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR}

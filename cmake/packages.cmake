@@ -34,7 +34,8 @@ endfunction()
 
 set(packages)
 edgescout_package(library libedgescout0 libs "6-DoF poses of textureless objects: libraries")
-edgescout_package(development libedgescout-dev libdevel "6-DoF poses of textureless objects: headers")
+edgescout_package(development libedgescout-dev libdevel
+  "6-DoF poses of textureless objects: headers")
 edgescout_package(program edgescout science "6-DoF poses of textureless objects: program")
 set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS library)
 set(CPACK_COMPONENT_PROGRAM_DEPENDS library)

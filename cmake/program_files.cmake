@@ -1,6 +1,7 @@
 # What belongs to the program beside itself: manual pages, and the completion of verbs and options
 # in bash.
-install(FILES scripts/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+install(FILES scripts/completion.bash DESTINATION
+  ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
   RENAME edgescout COMPONENT program)
 find_program(HELP2MAN help2man)
 if(NOT HELP2MAN)

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Fits the factor of a pose's covariance that no distance to an edge shows, and prints how well the regions hold.
+"""Fits the factor of a pose's covariance that no distance to an edge shows, and prints how well the
+regions hold.
 
 The factor is common_to_edges (host/register/edge_covariance.h): of_all * explained ^ power.
 
@@ -8,11 +9,12 @@ The factor is common_to_edges (host/register/edge_covariance.h): of_all * explai
     scripts/fit_covariance.py *.csv
     scripts/fit_covariance.py --write host/register/edge_covariance_weights.h *.csv
 
-The squared error of a pose, normalised by its covariance, is below the chi-squared bound of 95 % where the 95 % region
-holds the error. Its tails are heavier than a Gaussian's, so the factor comes from the tail itself: the logarithm of
-squared error over bound has zero as its conditional 95 % quantile (quantile regression: Koenker and Bassett,
-Econometrica 1978). Only right poses count, within 0.1 rad and 5 mm. The printed shares are cross-validated: the poses of
-each part are judged by a fit to all other parts.
+The squared error of a pose, normalised by its covariance, is below the chi-squared bound of 95 %
+where the 95 % region holds the error. Its tails are heavier than a Gaussian's, so the factor comes
+from the tail itself: the logarithm of squared error over bound has zero as its conditional 95 %
+quantile (quantile regression: Koenker and Bassett, Econometrica 1978). Only right poses count,
+within 0.1 rad and 5 mm. The printed shares are cross-validated: the poses of each part are judged
+by a fit to all other parts.
 """
 import argparse
 import csv

@@ -1,20 +1,22 @@
 #!/usr/bin/python3
-"""Fits what measured depth says of a pose, beside its edges and shading, and prints how well the sum judges.
+"""Fits what measured depth says of a pose, beside its edges and shading, and prints how well the
+sum judges.
 
-PoseClassifier (host/register/pose_classifier.h) adds such a term to the log-odds of one view. Its weights are set by
-hand; this shows how far a fit would change them (docs/research/probability.md).
+PoseClassifier (host/register/pose_classifier.h) adds such a term to the log-odds of one view. Its
+weights are set by hand; this shows how far a fit would change them (docs/research/probability.md).
 
     edgescout render --depth ...
     for part in SCENES/*; do edgescout_bench_pose_features $part --depth > $(basename $part).csv; done
     scripts/fit_depth.py *.csv
 
-The log-odds of edges and shading are the present ones and stay.
-Of the samples of the surface that were measured and that nothing hides, some agree with the pose and the rest contradict
-it. The share that agrees has a weight that is not negative; with fewer than twenty samples bias and weight count less.
+The log-odds of edges and shading are the present ones and stay. Of the samples of the surface that
+were measured and that nothing hides, some agree with the pose and the rest contradict it. The share
+that agrees has a weight that is not negative; with fewer than twenty samples bias and weight count
+less.
 
-The poses are those that detection without a threshold reports, where anything was measured of them. One is right within
-0.1 rad and 5 mm of a true one. The printed figures are cross-validated: the poses of each part are judged by a fit to
-all other parts.
+The poses are those that detection without a threshold reports, where anything was measured of them.
+One is right within 0.1 rad and 5 mm of a true one. The printed figures are cross-validated: the
+poses of each part are judged by a fit to all other parts.
 """
 import argparse
 from pathlib import Path

@@ -1,20 +1,23 @@
 #!/usr/bin/python3
 """Fits the two logistic functions of a pose's features in one view and prints how well they judge.
 
-PoseClassifier (host/register/pose_classifier.h) has two such functions. `rank` is fitted on poses after the medium
-stage of detection, `probability` on the poses that detection without a threshold reports.
+PoseClassifier (host/register/pose_classifier.h) has two such functions. `rank` is fitted on poses
+after the medium stage of detection, `probability` on the poses that detection without a threshold
+reports.
 
     bench/trust/make_sets.py PARTS SETS --sets fit
     for part in SETS/fit/*; do edgescout_bench_pose_features $part > $(basename $part).csv; done
     scripts/fit_probability.py *.csv
     scripts/fit_probability.py --write host/register/pose_classifier_weights.h *.csv
 
-For the rank a pose is right if all vertices project within 10 px of their true places, modulo symmetry: the fine stage
-can still bring it to the truth. Poses that are up to half as far off again are left out: their label says little. For
-the probability a pose is right within 0.1 rad and 5 mm of a true one.
+For the rank a pose is right if all vertices project within 10 px of their true places, modulo
+symmetry: the fine stage can still bring it to the truth. Poses that are up to half as far off again
+are left out: their label says little. For the probability a pose is right within 0.1 rad and 5 mm
+of a true one.
 
-Every weight has the sign that its feature must have: more edge support never lowers the probability. The printed
-figures are cross-validated: the poses of each part are judged by a fit to all other parts.
+Every weight has the sign that its feature must have: more edge support never lowers the
+probability. The printed figures are cross-validated: the poses of each part are judged by a fit to
+all other parts.
 """
 import argparse
 import csv

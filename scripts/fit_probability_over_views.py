@@ -8,11 +8,13 @@ PoseClassifier (host/register/pose_classifier.h) uses the weights.
     scripts/fit_probability_over_views.py *.csv
     scripts/fit_probability_over_views.py --write host/register/pose_classifier_weights.h *.csv
 
-The log-odds are linear in the mean over the views of the bounded log-probability in one view; the weight is not
-negative. The probability in one view is the present one, so this fit comes after that of scripts/fit_probability.py.
+The log-odds are linear in the mean over the views of the bounded log-probability in one view; the
+weight is not negative. The probability in one view is the present one, so this fit comes after that
+of scripts/fit_probability.py.
 
-The poses are those that joint detection without a threshold reports. One is right within 0.1 rad and 5 mm of a true
-one. Poses that only one view informs of are left out: their probability is that in one view.
+The poses are those that joint detection without a threshold reports. One is right within 0.1 rad
+and 5 mm of a true one. Poses that only one view informs of are left out: their probability is that
+in one view.
 
 The printed figures are cross-validated: the poses of each part are judged by a fit to all other
 parts.

@@ -9,7 +9,8 @@ endfunction()
 file(REMOVE_RECURSE ${WORK_DIR})
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix)
 run(${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G Ninja -DCMAKE_BUILD_TYPE=Release
-    -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_CXX_FLAGS=${CXX_FLAGS})
+    -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
+    -DCMAKE_CXX_FLAGS=${CXX_FLAGS})
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 # The C interface by its CMake package and by pkg-config, each from C.
 file(GLOB_RECURSE c_library ${WORK_DIR}/prefix/lib*/libedgescout_c.so)
@@ -31,7 +32,8 @@ foreach(forbidden opencv_rgbd edgescout_sim edgescout_lab)
     message(FATAL_ERROR "libedgescout.so needs ${forbidden}: ${needed}")
   endif()
 endforeach()
-execute_process(COMMAND nm -DC --defined-only ${library} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND nm -DC --defined-only ${library} OUTPUT_VARIABLE symbols
+  COMMAND_ERROR_IS_FATAL ANY)
 foreach(forbidden render run_experiments prepare_dc_icp evaluate_by_object)
   if(symbols MATCHES "edgescout::${forbidden}[(]")
     message(FATAL_ERROR "libedgescout.so holds ${forbidden} of the simulator or the laboratory")

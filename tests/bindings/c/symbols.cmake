@@ -1,6 +1,7 @@
 # LIBRARY exports the functions that HEADER declares, which are those that the tests' TABLE opens,
 # and is called SONAME.
-execute_process(COMMAND nm -D --defined-only ${LIBRARY} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND nm -D --defined-only ${LIBRARY} OUTPUT_VARIABLE symbols
+  COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL " [A-Za-z] [^\n]+" exported "${symbols}")
 list(TRANSFORM exported REPLACE " [A-Za-z] " "")
 file(READ ${HEADER} text)
