@@ -17,16 +17,17 @@
 
 namespace edgescout {
 
-// The detection that an estimate with features makes. Its probability is of all views of them.
+// Returns the detection that an estimate with features makes. Its probability is of all views of
+// them.
 Detection to_detection(const PoseEstimate& estimate);
 
-// Whether a pose in the frame of this camera lies so near a known instance (thresholds::NEAR_KNOWN)
-// that alignment would move it there.
+// Returns the test whether a pose in the frame of this camera lies so near a known instance
+// (thresholds::NEAR_KNOWN) that alignment would move it there.
 PoseFilter near_known(std::span<const Se3> known_in_world, const TemplateSet& set,
                       const Se3& camera_from_world);
 
-// The candidates of search.set in search.view with features, most probable first, duplicates
-// merged. Poses are in the view's camera frame; their object is 0.
+// Returns the candidates of search.set in search.view with features, most probable first,
+// duplicates merged. Poses are in the view's camera frame; their object is 0.
 //
 // At most options.support_views of search.support are chosen (support_views.h). They take part in
 // all stages: hits are rescored in them and poses are registered in them. Features hold search.view
@@ -40,8 +41,8 @@ std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
                                           const DetectOptions& options,
                                           SearchTrace* trace = nullptr);
 
-// The same from hits of any images that are in the camera frame of search.view, already rescored,
-// and near no known instance (pooled_hits).
+// Returns the candidates that come from hits of any images that are in the camera frame of
+// search.view, already rescored, and near no known instance (pooled_hits).
 std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
                                           std::span<const ScanHit> rescored,
                                           std::span<const Se3> known_in_world,

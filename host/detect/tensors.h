@@ -14,18 +14,19 @@
 
 namespace edgescout {
 
-// The kernel's own validate() (kernels/tensor_layout.h) checks the same bounds.
+// Names the options of tensors to `visit`. The kernel's own validate() (kernels/tensor_layout.h)
+// checks the same bounds.
 void describe(TensorOptions& options, OptionVisitor& visit);
-// The part of them that other verbs also have: without bins and lambda, and without a group.
+// Names the part of them that other verbs also have: without bins and lambda, and without a group.
 void describe_values(TensorOptions& options, OptionVisitor& visit);
 
-// The view's image and edges are set (pipeline.h: prepare_view). Reduces by what suits each object
-// at each of its scales (distance_scales). LogicError: no templates, a camera pose that is not
-// finite.
+// Builds the tensors of a view, whose image and edges are set (pipeline.h: prepare_view). Reduces
+// by what suits each object at each of its scales (distance_scales). LogicError: no templates, a
+// camera pose that is not finite.
 void add_tensors(ObjectView& view, std::span<const TemplateSet> sets, Backend& backend,
                  const TensorOptions& options);
 
-// The same with one given reduction, image px per px of the reduced tensors.
+// Builds them with one given reduction, image px per px of the reduced tensors.
 void add_tensors(ObjectView& view, double reduction, Backend& backend,
                  const TensorOptions& options);
 
