@@ -137,8 +137,9 @@ measure() {
   shift 5
   local objects=(--model "$models"/obj_*.ply --unit mm --models-info "$models/models_info.json")
   if [ ! -f "$result/summary.json" ]; then
-    "$edgescout" detect "$scenes" "${objects[@]}" --device cpu --no-overlays --resume "$@" \
-      --out "$result" > "$result.log" 2>&1 || { cat "$result.log" >&2; exit 1; }
+    "$edgescout" detect "$scenes" "${objects[@]}" --device cpu --no-overlays --resume \
+      --min-probability 0.05 "$@" --out "$result" \
+      > "$result.log" 2>&1 || { cat "$result.log" >&2; exit 1; }
   fi
   "$edgescout" eval "$result/results.csv" "$scenes" "${objects[@]}" --min-visible "$min_visible" \
     --min-score "$min_probability" --json "${result}_$min_probability.json" > /dev/null
@@ -200,14 +201,14 @@ if [[ " ${parts[*]} " == *" views "* ]]; then
 fi
 
 if [[ " ${parts[*]} " == *" views "* ]]; then
-  for probability in 0.05 0.1 0.25 0.5 0.75 0.9; do
+  for probability in 0.05 0.1 0.25 0.4 0.5 0.75 0.9; do
     heading "rendered heaps of six parts, probability from $probability" "views"
     measure one heap_1 "$heap" "$heap/models" "$probability" "${range[@]}"
     measure three heap_joint_3 "${heap}_3" "$heap/models" "$probability" "${range[@]}" --joint
     measure five heap_joint_5 "$heap" "$heap/models" "$probability" "${range[@]}" --joint
   done
   heading "two types of parts that lie apart, one view" "probability from"
-  for probability in 0.05 0.1 0.25 0.5 0.75; do
+  for probability in 0.05 0.1 0.25 0.4 0.5 0.75; do
     measure "$probability" apart_1 "$apart" "$apart/models" "$probability" "${range[@]}"
   done
 fi
@@ -217,7 +218,7 @@ if [[ " ${parts[*]} " == *" photographs "* && "$data" != - ]]; then
   photographs_range=(--distance-min 0.4 --distance-max 0.8)
   mkdir -p "$out/pile"
   [ -e "$out/pile/000001" ] || ln -s "$photographs/000001" "$out/pile/000001"
-  for probability in 0.05 0.25 0.5 0.9; do
+  for probability in 0.05 0.25 0.4 0.5 0.9; do
     heading "photographs of brackets, probability from $probability" "views"
     measure one brackets_1 "$photographs" "$photographs/models" "$probability" \
       "${photographs_range[@]}"
@@ -235,7 +236,7 @@ if [[ " ${parts[*]} " == *" settings "* ]]; then
   }
   heading "settings, one view" "setting"
   setting "defaults" settings_default "${range[@]}"
-  for probability in 0.1 0.25 0.5 0.75; do
+  for probability in 0.1 0.25 0.4 0.5 0.75; do
     measure "\`--min-probability $probability\`" settings_default "${heap}_3" "$heap/models" \
       "$probability" "${range[@]}"
   done
