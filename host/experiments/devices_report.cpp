@@ -185,7 +185,7 @@ std::string devices_markdown(const DevicesReport& report) {
       "# Devices\n\nOne rendered image of {} x {} with {} instances of one part; {} templates; {} "
       "poses "
       "registered "
-      "and scored; one decision among {} views with {} candidates, {} particles and {} scenes. "
+      "and scored; one decision among {} views with {} candidates, {} particles and {} combinations. "
       "Medians of {} "
       "repetitions (fewer where a device is slow), "
       "devices in turn within one run. {} threads, load average {:.2f}, {:.0f} % of the processors "
