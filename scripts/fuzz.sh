@@ -26,7 +26,7 @@ sources_of() {
     templates) echo host/model/template_file.cpp host/io/binary_file.cpp ;;
     scout_state) echo host/active/scout_state.cpp host/io/binary_file.cpp ;;
     options) echo host/cli/{config,renamed_options}.cpp ;;
-    image) echo host/io/{image_header,exif}.cpp ;;
+    image) echo host/io/{image_header,tiff_header,png_chunks,exif}.cpp ;;
   esac
 }
 

@@ -15,6 +15,7 @@
 #include "host/io/image_header.h"
 #include "host/io/mesh.h"
 #include "host/io/one_line.h"
+#include "host/io/png_chunks.h"
 #include "host/io/poses.h"
 #include "host/io/tiff_header.h"
 #include "host/model/template_set.h"
@@ -56,6 +57,7 @@ void read_image_header(const fs::path& file) {
   stated_white(bytes);
   undecodable(bytes);
   as_stored(bytes);
+  needed_png_chunks(bytes, file.string());
 }
 
 // A program with a verb that has options of every kind.
