@@ -29,8 +29,16 @@ void flatten(const JsonField& field, const json& value, int depth, std::vector<d
   numbers.push_back(number.get<double>());
 }
 
+// Coefficients that take the distortion away are no coefficients that distort.
+bool is_inverse_distortion(std::string_view name) {
+  return contains_any_of(name, {"undistort", "invdist", "distinv", "distortioninv"}) ||
+         (name.find("inverse") != std::string_view::npos &&
+          contains_any_of(name, {"dist", "coef", "lens"}));
+}
+
 // Objects that are no part of a camera's intrinsics are other cameras, or of no interest.
 bool is_part_of_camera(std::string_view name) {
+  if (is_inverse_distortion(name)) return false;
   return is_matrix_name(name) || is_distortion_name(name) ||
          contains_any_of(name, {"intrinsic", "distortion", "projectionparam", "resolution"}) ||
          is_any_of(name, {"calibration",    "calib",         "camera",      "camerainfo",
@@ -152,8 +160,9 @@ bool is_matrix_name(std::string_view name) {
 }
 
 bool is_distortion_name(std::string_view name) {
-  if (contains_any_of(name, {"undistort", "model", "type", "distance", "distrib", "distro",
-                             "radial", "tangential"}) ||
+  if (is_inverse_distortion(name)) return false;
+  if (contains_any_of(name,
+                      {"model", "type", "distance", "distrib", "distro", "radial", "tangential"}) ||
       name.starts_with("est"))
     return false;
   return is_any_of(name, {"d", "coeffs", "coefficients", "coeff", "coefs", "coef", "dcoeffs",
@@ -246,6 +255,15 @@ std::vector<JsonField> CameraFields::take_all(
       entry.is_read = true;
       fields.push_back({*entry.value, source_, entry.path});
     }
+  return fields;
+}
+
+std::vector<JsonField> CameraFields::find_all(
+    const std::function<bool(std::string_view, const json&)>& fits) const {
+  std::vector<JsonField> fields;
+  for (const Entry& entry : entries_)
+    if (!entry.is_read && !entry.value->is_null() && fits(entry.name, *entry.value))
+      fields.push_back({*entry.value, source_, entry.path});
   return fields;
 }
 

@@ -62,6 +62,9 @@ class CameraFields {
   // All fields whose plain name and value fit.
   std::vector<JsonField> take_all(
       const std::function<bool(std::string_view, const nlohmann::json&)>& fits);
+  // Those that are not read and fit; they stay so.
+  std::vector<JsonField> find_all(
+      const std::function<bool(std::string_view, const nlohmann::json&)>& fits) const;
   // Names of the fields that are not read.
   std::vector<std::string> unread() const;
   // InputError: a field that is not read looks like distortion, a lens model or a region of the

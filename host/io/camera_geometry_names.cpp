@@ -69,10 +69,12 @@ bool is_table(std::string_view name, const json& value) {
 }
 
 bool is_lens(std::string_view name, const json& value) {
-  if (value.is_number() &&
-      (is_numbered(name, "kps", 2) || is_numbered(name, "abcdeglr", 1) ||
-       (name.starts_with("kc") && is_numbered(name.substr(1), "c", 1)) ||
-       is_any_of(name, {"xi", "alpha", "beta", "omega", "s", "t1", "t2", "dist", "alphac"})))
+  if (value.is_number() && (is_numbered(name, "kps", 2) || is_numbered(name, "abcdeglr", 1) ||
+                            (name.starts_with("kc") && is_numbered(name.substr(1), "c", 1)) ||
+                            is_any_of(name, {"xi", "alpha", "beta", "omega", "s", "t1", "t2",
+                                             "dist", "alphac", "meixi", "omnixi", "ucmxi"})))
+    return true;
+  if (is_list(value) && is_any_of(name, {"dc", "drect", "drectified", "draw", "rad", "tan"}))
     return true;
   const bool is_pair = value.is_array() && value.size() == 2;  // p1 and p2
   if (((value.is_string() || value.is_array()) && is_distortion_name(name)) ||
@@ -80,12 +82,12 @@ bool is_lens(std::string_view name, const json& value) {
       is_order_of_coefficients(value))
     return true;
   return name.starts_with("tau") || name.ends_with("poly") || is_any_of(name, {"codx", "cody"}) ||
-         contains_any_of(
-             name,
-             {"distort",     "fisheye",     "lens",      "prism",       "tangential", "radial",
-              "coef",        "decent",      "barrel",    "pincushion",  "warp",       "kappa",
-              "tilt",        "scheimpflug", "shear",     "skew",        "omnidir",    "mirrorparam",
-              "affineparam", "polynom",     "polyparam", "telecentric", "entocentric"});
+         contains_any_of(name,
+                         {"distort",    "aberration", "fisheye",     "lens",        "prism",
+                          "tangential", "radial",     "coef",        "decent",      "barrel",
+                          "pincushion", "warp",       "kappa",       "tilt",        "scheimpflug",
+                          "shear",      "skew",       "omnidir",     "mirrorparam", "affineparam",
+                          "polynom",    "polyparam",  "telecentric", "entocentric"});
 }
 
 bool is_one(const json& value) {
@@ -105,7 +107,8 @@ bool is_region(std::string_view name, const json& value) {
       name.starts_with("resiz") ||
       is_any_of(name, {"imageresize", "isresized", "binx", "biny", "xbin", "ybin", "hbin", "vbin",
                        "imagescale", "imgscale", "scalefactor", "scalingfactor"});
-  if (is_scale) return !is_one(value);
+  const bool is_bin = name == "bin" && (value.is_number() || value.is_array());  // no file's name
+  if (is_scale || is_bin) return !is_one(value);
   const bool is_word = value.is_string() && !is_list(value);
   if (!is_word && is_any_of(name, {"window", "region"})) return true;
   return name.starts_with("roi") || name.ends_with("roi") || name.ends_with("aoi") ||

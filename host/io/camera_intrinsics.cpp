@@ -32,6 +32,10 @@ Pinhole from_matrix(std::vector<double> k, const JsonField& field, bool may_be_t
   }
   if (k[3] != 0 || k[6] != 0 || k[7] != 0 || k[8] != 1)
     field.fail("a matrix of another form", rows_of_matrix);
+  // A pose at the origin, or what a program writes before it is calibrated.
+  if (k[0] == 1 && k[4] == 1 && k[2] == 0 && k[5] == 0 && k[1] == 0)
+    field.fail("the identity",
+               "the matrix of a calibrated camera, in px: " + std::string(rows_of_matrix));
   return {k[0], k[4], k[2], k[5], k[1], field.path};
 }
 

@@ -5,6 +5,9 @@
 #include <set>
 
 #include "host/core/lens.h"
+#include "host/core/log.h"
+#include "host/core/words.h"
+#include "host/io/one_line.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -118,22 +121,6 @@ bool names_model(std::string_view name, const json& value) {
               "panoram",    "catadioptric",  "hypercentric", "distortion"});
 }
 
-// "fisheye_model: 1", "undistorted: true".
-std::optional<LensWord> word_of_switch(CameraFields& fields) {
-  std::optional<LensWord> word;
-  for (const JsonField& field : fields.take_all([](std::string_view name, const json&value) {
-         return !value.is_structured() &&
-                is_any_of(name, {"fisheyemodel", "fisheye", "isfisheye", "usefisheye"});
-       }))
-    if (!is_trivial(field.value)) word = LensWord::Fisheye;
-  for (const JsonField& field : fields.take_all([](std::string_view name, const json&value) {
-         return !value.is_structured() &&
-                is_any_of(name, {"undistorted", "isundistorted", "rectified", "isrectified"});
-       }))
-    if (!is_trivial(field.value)) word = LensWord::Ideal;
-  return word;
-}
-
 // RealSense numbers its models (rs2_distortion).
 std::optional<LensWord> realsense_word(CameraFields& fields) {
   if (!fields.has({"ppx"})) return {};
@@ -166,11 +153,82 @@ struct FoundModel {
   std::string field;  // that names it; empty: none does
 };
 
+// "fisheye_model: 1", "undistorted: true".
+std::optional<FoundModel> model_of_switch(CameraFields& fields) {
+  std::optional<FoundModel> model;
+  for (const JsonField& field : fields.take_all([](std::string_view name, const json&value) {
+         return !value.is_structured() &&
+                is_any_of(name, {"fisheyemodel", "fisheye", "isfisheye", "usefisheye"});
+       }))
+    if (!is_trivial(field.value)) model = {LensWord::Fisheye, field.path};
+  for (const JsonField& field : fields.take_all([](std::string_view name, const json&value) {
+         return !value.is_structured() &&
+                is_any_of(name, {"undistorted", "isundistorted", "rectified", "isrectified"});
+       }))
+    if (!is_trivial(field.value)) model = {LensWord::Ideal, field.path};
+  return model;
+}
+
 void join(FoundModel& model, LensWord word, const JsonField& field) {
   if (word == LensWord::Pinhole && !model.field.empty()) return;
   if (model.word != LensWord::Pinhole && model.word != word)
     field.fail(text_in_field(field), "the same lens model as " + model.field);
   model = {word, field.path};
+}
+
+// "k1", "k_1", "radial_k1" -> "k1". Empty: no coefficient.
+std::string coefficient_name(std::string_view name) {
+  for (const std::string_view prefix :
+       {"camera", "cam", "distortion", "dist", "radial", "tangential", "prism", "lens"})
+    if (name.starts_with(prefix)) name.remove_prefix(prefix.size());
+  static const std::set<std::string, std::less<>> names{
+      "k1", "k2",  "k3",  "k4",   "k5",   "k6", "p1", "p2", "s1", "s2", "s3",
+      "s4", "sx1", "sy1", "taux", "tauy", "d0", "d1", "d2", "d3", "d4", "kud"};
+  return names.contains(name) ? std::string(name) : "";
+}
+
+// What the name of an object says of the lens within it: "fisheye_params", "left_equidistant".
+std::optional<LensWord> word_of_object(const std::string& written, const JsonField& field) {
+  const std::string name = plain_name(written);
+  if (contains_any_of(name, {"nonfisheye", "notfisheye", "defish"})) return {};
+  const bool is_fisheye = contains_any_of(name, {"fisheye", "equidistant", "kannalabrandt"});
+  if (is_fisheye && contains_any_of(name, {"undist", "rectif", "pinhole"})) return LensWord::Ideal;
+  if (is_fisheye) return LensWord::Fisheye;
+  if (is_any_of(name, {"omni", "mei", "ucm", "eucm", "ocam"}) ||
+      contains_any_of(name, {"omnidir", "scaramuzza", "doublesphere", "catadioptric"}))
+    throw InputError(field.source, field.path, "the lens model " + written, known_models);
+  const std::optional<LensWord> word = word_in(written);
+  const bool is_decisive =
+      word == LensWord::Fisheye || word == LensWord::FieldOfView || word == LensWord::Modified;
+  return is_decisive ? word : std::nullopt;
+}
+
+// Whether the path has the word from a camera's name rather than from a field.
+bool is_title(const std::string& word, const CameraFields& fields) {
+  return !fields
+              .find_all([&](std::string_view, const json& value) {
+                return value.is_string() && value.get_ref<const std::string&>() == word;
+              })
+              .empty();
+}
+
+bool is_of_lens_or_intrinsics(std::string_view name, const json& value) {
+  if (is_list(value)) return is_matrix_name(name) || is_distortion_name(name);
+  return is_any_of(name, {"fx", "fy"}) || !coefficient_name(name).empty();
+}
+
+// Files without a field for the model may name an object after it.
+std::optional<FoundModel> model_of_path(const CameraFields& fields) {
+  std::optional<FoundModel> model;
+  for (const JsonField& field : fields.find_all(is_of_lens_or_intrinsics))
+    for (const std::string& object : words_of(field.path, "/")) {
+      if (is_title(object, fields)) continue;
+      const std::optional<LensWord> word = word_of_object(object, field);
+      if (word && model && model->word != *word)
+        field.fail("the lens model of " + object, "the same lens model as " + model->field);
+      if (word && !model) model = FoundModel{*word, field.path};
+    }
+  return model;
 }
 
 FoundModel read_model(CameraFields& fields) {
@@ -187,12 +245,24 @@ FoundModel read_model(CameraFields& fields) {
     if (!word) field.fail(text, known_models);
     join(model, *word, field);
   }
-  const std::optional<LensWord> of_switch = word_of_switch(fields);
-  if (!of_switch) return model;
-  if (model.word != LensWord::Pinhole && model.word != *of_switch)
-    throw InputError(fields.source(), model.field, "another lens model than a switch of the file",
+  const std::optional<FoundModel> of_switch = model_of_switch(fields);
+  if (of_switch && model.word != LensWord::Pinhole && model.word != of_switch->word)
+    throw InputError(fields.source(), model.field, "another lens model than " + of_switch->field,
                      "one lens model");
-  return {*of_switch, model.field.empty() ? fields.at("fisheye_model") : model.field};
+  if (of_switch) return *of_switch;
+  return model.word == LensWord::Pinhole ? model_of_path(fields).value_or(model) : model;
+}
+
+// A name or a comment decides nothing: "camera_name: fisheye_left".
+void warn_of_titles(const CameraFields& fields) {
+  for (const JsonField& field : fields.find_all([](std::string_view, const json& value) {
+         return value.is_string() &&
+                contains_any_of(plain_name(value.get<std::string>()), {"fisheye", "equidistant"});
+       }))
+    log(LogLevel::Warning, one_line(field.source + ": " + field.path + ": found " +
+                                    text_in_field(field).substr(0, 60) +
+                                    ", expected a field that names the lens model "
+                                    "(distortion_model): read as Brown-Conrady"));
 }
 
 struct Coefficients {
@@ -200,19 +270,8 @@ struct Coefficients {
   std::string field;  // empty: none are given
 };
 
-// "k1", "k_1", "radial_k1" -> "k1". Empty: no coefficient.
-std::string coefficient_name(std::string_view name) {
-  for (const std::string_view prefix :
-       {"camera", "cam", "distortion", "dist", "radial", "tangential", "prism", "lens"})
-    if (name.starts_with(prefix)) name.remove_prefix(prefix.size());
-  static const std::set<std::string, std::less<>> names{
-      "k1", "k2",  "k3",  "k4",   "k5",   "k6", "p1", "p2", "s1", "s2", "s3",
-      "s4", "sx1", "sy1", "taux", "tauy", "d0", "d1", "d2", "d3", "d4", "kud"};
-  return names.contains(name) ? std::string(name) : "";
-}
-
-// Single coefficients in the order of OpenCV, or of Kannala-Brandt.
-Coefficients single_coefficients(CameraFields& fields, bool is_fisheye) {
+// In the order of OpenCV, or of Kannala-Brandt.
+std::optional<std::size_t> place_of(const std::string& coefficient, bool is_fisheye) {
   static const std::map<std::string, std::size_t> opencv{
       {"k1", 0}, {"k2", 1}, {"p1", 2}, {"p2", 3},  {"k3", 4},  {"k4", 5},    {"k5", 6},
       {"k6", 7}, {"s1", 8}, {"s2", 9}, {"s3", 10}, {"s4", 11}, {"taux", 12}, {"tauy", 13},
@@ -220,12 +279,21 @@ Coefficients single_coefficients(CameraFields& fields, bool is_fisheye) {
   static const std::map<std::string, std::size_t> kannala_brandt{
       {"k1", 0}, {"k2", 1}, {"k3", 2}, {"k4", 3}, {"k5", 4},
       {"k6", 5}, {"d0", 0}, {"d1", 1}, {"d2", 2}, {"d3", 3}};
-  // camodocal begins at k2, and names the focal lengths mu and mv.
-  const std::size_t first = is_fisheye && fields.has({"mu"}) ? 1 : 0;
+  const auto& order = is_fisheye ? kannala_brandt : opencv;
+  const auto place = order.find(coefficient);
+  return place == order.end() ? std::nullopt : std::optional(place->second);
+}
+
+struct SingleCoefficient {
+  double value;
+  JsonField field;
+};
+using SingleCoefficients = std::map<std::string, SingleCoefficient>;
+
+SingleCoefficients take_single_coefficients(CameraFields& fields) {
   // Without d0 it is not sure where d1 stands.
   const bool has_d0 = fields.has({"d0"});
-  fields.take({"kdu"});  // ViSP's inverse of kud
-  Coefficients found;
+  SingleCoefficients found;
   for (const JsonField& field : fields.take_all([&](std::string_view name, const json&value) {
          const std::string coefficient = coefficient_name(name);
          return !coefficient.empty() && !value.is_structured() && (has_d0 || coefficient[0] != 'd');
@@ -233,15 +301,54 @@ Coefficients single_coefficients(CameraFields& fields, bool is_fisheye) {
     const std::string name =
         coefficient_name(plain_name(field.path.substr(field.path.find_last_of("/.") + 1)));
     const double value = number_in_field(field);
-    const auto& order = is_fisheye ? kannala_brandt : opencv;
-    const auto place = order.find(name);
-    if (place == order.end() || place->second < first) {
-      if (value != 0) field.fail(field.value.dump(), "a coefficient of the lens model");
+    const auto [other, is_new] = found.emplace(name, SingleCoefficient{value, field});
+    if (!is_new && other->second.value != value)
+      field.fail(field.value.dump(),
+                 other->second.field.value.dump() + " as in " + other->second.field.path);
+  }
+  return found;
+}
+
+// k1 k2 k3 k4 are those of a fisheye lens, with p1 and p2 those of a polynomial of four terms; in
+// OpenCV's rational model k4 divides, with k5 and k6.
+void require_known_order(const SingleCoefficients& found, bool is_named) {
+  const auto k4 = found.find("k4");
+  const auto has = [&](const char* name) { return found.contains(name); };
+  const auto bends = [&](const char* name) { return has(name) && found.at(name).value != 0; };
+  const bool is_rational = k4 != found.end() && has("k5") && has("k6");
+  for (const char* name : {"k4", "k5", "k6"})
+    if (bends(name) && !is_rational)
+      found.at(name).field.fail(
+          found.at(name).field.value.dump() + " without all of k4, k5 and k6",
+          "the lens model fisheye in a field (distortion_model), or rational_polynomial with k4, "
+          "k5 and k6");
+  const bool may_be_fisheye =
+      k4 != found.end() && !is_named && !has("p1") && !has("p2") && !has("k5") && !has("k6");
+  if (may_be_fisheye && (bends("k1") || bends("k2") || bends("k3")))
+    k4->second.field.fail("k1 to k4 without p1 and p2",
+                          "a field that names the lens model: distortion_model: fisheye, plumb_bob "
+                          "..");
+}
+
+// Single coefficients in the order of the model.
+Coefficients single_coefficients(CameraFields& fields, const FoundModel& model) {
+  const bool is_fisheye = model.word == LensWord::Fisheye;
+  // camodocal begins at k2, and names the focal lengths mu and mv.
+  const std::size_t first = is_fisheye && fields.has({"mu"}) ? 1 : 0;
+  fields.take({"kdu"});  // ViSP's inverse of kud
+  const SingleCoefficients singles = take_single_coefficients(fields);
+  if (!is_fisheye) require_known_order(singles, model.word != LensWord::Pinhole);
+  Coefficients found;
+  for (const auto& [name, single] : singles) {
+    const std::optional<std::size_t> place = place_of(name, is_fisheye);
+    if (!place || *place < first) {
+      if (single.value != 0)
+        single.field.fail(single.field.value.dump(), "a coefficient of the lens model");
       continue;
     }
     found.values.resize(LensCoefficients{}.size());
-    found.values[place->second - first] = value;
-    if (found.field.empty()) found.field = field.path;
+    found.values[*place - first] = single.value;
+    if (found.field.empty()) found.field = single.field.path;
   }
   return found;
 }
@@ -293,10 +400,10 @@ bool are_equal(std::vector<double> a, std::vector<double> b) {
 }
 
 // Some programs write the same coefficients in two forms.
-Coefficients read_coefficients(CameraFields& fields, bool is_fisheye) {
+Coefficients read_coefficients(CameraFields& fields, const FoundModel& model) {
   Coefficients found = radial_and_tangential(fields);
   for (const Coefficients& other :
-       {listed_coefficients(fields), single_coefficients(fields, is_fisheye)}) {
+       {listed_coefficients(fields), single_coefficients(fields, model)}) {
     if (other.field.empty()) continue;
     if (!found.field.empty() && !are_equal(other.values, found.values))
       throw InputError(fields.source(), other.field, "other coefficients",
@@ -357,8 +464,9 @@ void set_lens(Camera& camera, LensModel lens, const std::vector<double>& coeffic
 
 void read_lens(CameraFields& fields, Camera& camera) {
   const FoundModel model = read_model(fields);
+  if (model.word == LensWord::Pinhole) warn_of_titles(fields);
   const LensModel lens = model_of(model.word);
-  const Coefficients found = read_coefficients(fields, lens == LensModel::Fisheye);
+  const Coefficients found = read_coefficients(fields, model);
   const bool is_named = model.word != LensWord::Ideal && model.word != LensWord::Pinhole;
   if (is_named && found.field.empty())
     throw InputError(fields.source(), fields.at("distortion_coefficients"), "nothing",

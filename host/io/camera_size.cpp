@@ -1,4 +1,5 @@
 // The image that a calibration is for: its size, region of interest and binning.
+#include <algorithm>
 #include <cmath>
 
 #include "host/io/camera_reader.h"
@@ -26,11 +27,15 @@ std::vector<double> two_sides(const JsonField& field) {
   return numbers_in_field(field);
 }
 
+std::vector<double> without_channels(std::vector<double> sides) {
+  if (sides.size() == 3 && sides[2] <= 4) sides.pop_back();  // the shape of an array
+  return sides;
+}
+
 // Programs disagree whether a list is (width, height) or (height, width). The principal point
 // decides, and for a square image it does not matter.
 void set_listed_size(Camera& camera, const JsonField& field, bool height_first) {
-  std::vector<double> sides = two_sides(field);
-  if (sides.size() == 3 && sides[2] <= 4) sides.pop_back();  // the shape of an array: channels
+  const std::vector<double> sides = without_channels(two_sides(field));
   if (sides.size() != 2 || sides[0] < 0 || sides[1] < 0 || sides[0] != std::floor(sides[0]) ||
       sides[1] != std::floor(sides[1]))
     field.fail(field.value.dump().substr(0, 60), "width and height in px");
@@ -43,18 +48,50 @@ void set_listed_size(Camera& camera, const JsonField& field, bool height_first) 
   camera.height = static_cast<int>(sides[swapped ? 0 : 1]);
 }
 
+// Whether a field beside width and height holds the size of an image: "resolution: VGA" holds a
+// word, "size: [9, 6]" the corners of a board.
+bool holds_a_size(const JsonField& field) {
+  constexpr double least_side = 32;
+  const bool is_number_alone = field.value.is_number() || field.value.is_boolean();
+  if (is_number_alone || is_trivial(field.value)) return false;
+  try {
+    const std::vector<double> sides = without_channels(two_sides(field));
+    return sides.size() == 2 && std::min(sides[0], sides[1]) >= least_side;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+// The order of a list is not sure (set_listed_size).
+void require_same_size(const Camera& camera, const JsonField& field) {
+  if (!holds_a_size(field)) return;
+  const std::vector<double> sides = without_channels(two_sides(field));
+  const bool is_same = (sides[0] == camera.width && sides[1] == camera.height) ||
+                       (sides[0] == camera.height && sides[1] == camera.width);
+  if (!is_same)
+    field.fail(field.value.dump().substr(0, 60), std::to_string(camera.width) + " x " +
+                                                     std::to_string(camera.height) +
+                                                     " as in width and height");
+}
+
 struct Region {
   double x = 0, y = 0;
   int width = 0, height = 0;  // 0: the whole image
 };
+
+double offset_in(const JsonField& field) {
+  const double offset = number_in_field(field);
+  if (offset < 0) field.fail(field.value.dump(), "an offset of at least 0 px");
+  return offset;
+}
 
 Region read_region(const JsonField& field) {
   if (!field.value.is_object())
     field.fail(field.value.dump().substr(0, 60), "x_offset, y_offset, width and height");
   CameraFields roi(field.value, field.source, field.path);
   Region region;
-  if (const auto x = roi.take({"xoffset", "offsetx", "x", "left"})) region.x = number_in_field(*x);
-  if (const auto y = roi.take({"yoffset", "offsety", "y", "top"})) region.y = number_in_field(*y);
+  if (const auto x = roi.take({"xoffset", "offsetx", "x", "left"})) region.x = offset_in(*x);
+  if (const auto y = roi.take({"yoffset", "offsety", "y", "top"})) region.y = offset_in(*y);
   if (const auto width = roi.take({"width", "w"})) region.width = size_side(*width);
   if (const auto height = roi.take({"height", "h"})) region.height = size_side(*height);
   roi.take({"dorectify"});  // says how to rectify, nothing of this image
@@ -89,6 +126,11 @@ int binning_of(CameraFields& fields, std::initializer_list<std::string_view> nam
   return std::max(binning, 1);
 }
 
+// Not of what the camera stands in: a list of all cameras' sizes, a screen.
+bool is_of(const CameraFields& fields, const JsonField& field) {
+  return fields.path().empty() || field.path.starts_with(fields.path() + "/");
+}
+
 }  // namespace
 
 void read_size(CameraFields& fields, Camera& camera) {
@@ -104,7 +146,10 @@ void read_size(CameraFields& fields, Camera& camera) {
   if (const auto listed = fields.take(
           {"resolution", "imagesize", "imgsize", "imsize", "size", "imageresolution", "imageshape",
            "shape", "imgshape", "imagedimension", "imagedimensions", "imagedims", "dim", "dims"}))
-    if (!width && !height) set_listed_size(camera, *listed, height_first);
+    if (!width && !height)
+      set_listed_size(camera, *listed, height_first);
+    else if (width && height && camera.width > 0 && camera.height > 0 && is_of(fields, *listed))
+      require_same_size(camera, *listed);
   if ((camera.width == 0) != (camera.height == 0))
     throw InputError(fields.source(), fields.at(camera.width ? "image_height" : "image_width"),
                      "nothing", "both sizes or neither");

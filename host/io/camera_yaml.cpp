@@ -13,16 +13,25 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int most_values = 100'000;
-
 InputError endless(const std::string& source) {
   return InputError(source, "YAML", "lists without an end", "a camera calibration");
 }
 
+// OpenCV's calibration writes all points of all images: some 10 bytes a number. More values than
+// the file has room for are those of aliases, or of documents without an end.
+std::size_t most_values(const std::string& text) { return 100'000 + text.size() / 4; }
+
+InputError too_many(std::size_t most, const std::string& source) {
+  return InputError(source, "YAML",
+                    "more than " + std::to_string(most) + " values (lists without an end?)",
+                    "a camera calibration");
+}
+
 // Aliases can repeat a part of the file without end.
 struct YamlLimit {
+  std::size_t most;
+  std::size_t* values;
   int depth = 12;
-  int* values;
 };
 
 json yaml_value(const YAML::Node& node, YamlLimit limit, const std::string& source);
@@ -55,7 +64,8 @@ json yaml_map(const YAML::Node& node, YamlLimit limit, const std::string& source
 }
 
 json yaml_value(const YAML::Node& node, YamlLimit limit, const std::string& source) {
-  if (--limit.depth < 0 || --*limit.values < 0) throw endless(source);
+  if (--limit.depth < 0) throw endless(source);
+  if (++*limit.values > limit.most) throw too_many(limit.most, source);
   if (node.IsMap()) return yaml_map(node, limit, source);
   if (node.IsSequence()) {
     json list = json::array();
@@ -69,7 +79,7 @@ json yaml_value(const YAML::Node& node, YamlLimit limit, const std::string& sour
 // outside of a list, and would keep them all.
 class EndlessCheck : public YAML::EventHandler {
  public:
-  explicit EndlessCheck(std::string source) : source_(std::move(source)) {}
+  EndlessCheck(std::size_t most, std::string source) : most_(most), source_(std::move(source)) {}
   void OnDocumentStart(const YAML::Mark&) override { count(); }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark&, YAML::anchor_t) override { count(); }
@@ -91,17 +101,18 @@ class EndlessCheck : public YAML::EventHandler {
 
  private:
   void count() {
-    if (++values_ > most_values) throw endless(source_);
+    if (++values_ > most_) throw too_many(most_, source_);
   }
 
+  std::size_t most_;
   std::string source_;
-  int values_ = 0;
+  std::size_t values_ = 0;
 };
 
 void require_an_end(const std::string& text, const std::string& source) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
-  EndlessCheck check(source);
+  EndlessCheck check(most_values(text), source);
   while (parser.HandleNextDocument(check)) continue;
 }
 
@@ -133,12 +144,13 @@ std::string without_opencv_line(const std::string& text) {
 json yaml_camera_tree(const std::string& text, const std::string& source) {
   try {
     json documents = json::array();
-    int values = most_values;
+    std::size_t values = 0;
     const std::string yaml = without_leading_tabs(without_opencv_line(text));
     require_an_end(yaml, source);
     for (const YAML::Node& document : YAML::LoadAll(yaml))
       if (!document.IsNull())
-        documents.push_back(yaml_value(document, {.values = &values}, source));
+        documents.push_back(
+            yaml_value(document, {.most = most_values(yaml), .values = &values}, source));
     if (documents.size() == 1) return documents[0];
     return documents;
   } catch (const YAML::Exception& error) {

@@ -198,6 +198,18 @@ TEST(LoadCameras, RefusesYamlWithoutAnEnd) {
                        {"a.yaml", "YAML", "without an end"});
 }
 
+// OpenCV's calibration writes the points of all images.
+TEST(LoadCameras, ReadsAFileOfManyPoints) {
+  std::string points = "image_points: [ 1.0000000e+01";
+  for (int i = 0; i < 120'000; ++i) points += ", 3.2100000e+02";
+  const Camera camera = load(opencv + points + " ]\n");
+  EXPECT_EQ(camera.fx, 600.5);
+  std::string short_values = "a: [1";
+  for (int i = 0; i < 250'000; ++i) short_values += ",1";
+  expect_input_error([&] { load(short_values + "]\n"); },
+                     {"camera.yaml", "YAML", "more than", "values"});
+}
+
 TEST(LoadCameras, NamesFieldsWithLineBreaksInOneLine) {
   const TemporaryFolder folder;
   expect_input_error(

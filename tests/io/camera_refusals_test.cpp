@@ -16,6 +16,8 @@ TEST(CameraFormats, RefusesWhatItDoesNotUnderstand) {
   refused("crop: [10, 20, 300, 200]\n", {"crop"});
   refused("roi: [10, 20, 300, 200]\n", {"roi", "x_offset"});
   refused("roi: {x_offset: 10, y_offset: 0, zoom: 2}\n", {"roi/zoom"});
+  refused("roi: {x_offset: -10, y_offset: 0, width: 640, height: 480}\n",
+          {"roi/x_offset", "-10", "at least 0"});
   refused("roi: {x_offset: 10, y_offset: 0}\n", {"roi", "offset without a size"});
   refused("camera_model: omni\nD: [0.1, 0, 0, 0]\n", {"camera_model", "omni", "kannala_brandt"});
   refused("binning: 2\n", {"binning"});
@@ -25,6 +27,9 @@ TEST(CameraFormats, RefusesWhatItDoesNotUnderstand) {
   refused("distortion_model: division\nD: [0.1]\n", {"distortion_model", "division"});
   refused("distortion_model: none\nD: [0.1, 0, 0, 0]\n", {"D", "distortion_model"});
   refused("fisheye: true\nD: [0.1, 0, 0, 0, 0.3]\n", {"D", "5 coefficients", "4"});
+  refused("is_fisheye: true\n", {"coefficients of the model in is_fisheye"});
+  refused("is_rectified: 1\nD: [0.1, 0, 0, 0]\n", {"D", "as is_rectified says"});
+  refused("k1: 0.1\ndistortion: {k1: 0.2}\n", {"k1", "0.1", "0.2"});
   refused("D: [0.1, 0.2, 0.3]\n", {"D", "3 coefficients", "4, 5, 8, 12, 14"});
   refused("D: [0.1, 0.2, 0, 0]\nk1: 0.3\n", {"k1", "D"});
   refused("camera_matrix: [[650, 0, 321], [0, 701, 238], [0, 0, 1]]\n", {"fx", "650", "700"});
@@ -80,6 +85,19 @@ TEST(CameraFormats, RefusesWhatItDoesNotUnderstand) {
                                "type: orthographic\n",
                                "cam_model: omni\n",
                                "kind: fisheye\n",
+                               "inverse_distortion: [-0.25, 0.12, 0, 0]\n",
+                               "distortion_inverse: {k1: -0.25}\n",
+                               "undistortion: {k1: -0.25}\n",
+                               "dc: [0.1, 0, 0, 0]\n",
+                               "D_rect: [0.1, 0, 0, 0]\n",
+                               "rad: [-0.25, 0.12]\n",
+                               "mei_xi: 0.9\n",
+                               "aberration: 0.1\n",
+                               "bin: 2\n",
+                               "resolution: [1280, 960]\n",
+                               "ImageSize: [960, 1280]\n",
+                               "img_size: 1280x960\n",
+                               "shape: [960, 1280, 3]\n",
                                "D: '<sequence type: double, length: 5>'\n"}) {
     const std::string field = geometry;
     refused(field, {"camera.yaml", field.substr(0, field.find(':')).c_str(), "expected"});
@@ -92,6 +110,15 @@ TEST(CameraFormats, RefusesWhatItDoesNotUnderstand) {
         "camera_name: K1\nsensor: k1\ncomment: k1 only\nfix: [k1]\n",
         "camera_name: fisheye\nregion: EU\ndistro: humble\nwindow: calibration\n",
         "decimation: 1\n",
+        "resolution: [640, 480]\n",
+        "ImageSize: [480, 640]\n",
+        "resolution: VGA\n",
+        "size: [9, 6]\n",
+        "shape: [480, 640, 3]\n",
+        "resolution: 0.001\n",
+        "bin: calibration.bin\n",
+        "rad: 0.1\n",
+        "aberration: 0\n",
         "zoom: 1\n",
         "flip: false\n",
         "rotate: 0\n",
@@ -123,6 +150,7 @@ TEST(CameraFormats, RefusesMatricesThatAreNone) {
   refused("K: [700, 0, 0, 0, 701, 0, 321, 238, 1]\n", {"K", "transposed", "fx 0 cx"});
   refused("K: [0, 0, 0, 0, 0, 0, 0, 0, 0]\n", {"K", "only zeros", "calibrated"});
   refused("K: [700, 0, 321, 0, 701, 238, 0, 0, 2]\n", {"K", "fx 0 cx"});
+  refused("1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", {"K", "the identity", "calibrated"});
   refused("K: [700, 701, 321]\n", {"K", "3 numbers"});
   refused("fx: 700\nfy: 701\ncx: 321\n", {"cy", "nothing"});
   refused("f: 700\naspect: 1.1\ncx: 321\ncy: 238\n", {"aspect", "1.1", "both axes"});
