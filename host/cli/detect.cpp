@@ -11,6 +11,7 @@
 #include "host/cli/shard_file.h"
 #include "host/cli/template_sets.h"
 #include "host/cli/verbs.h"
+#include "host/cli/wanted_objects.h"
 #include "host/core/log.h"
 #include "host/io/files.h"
 #include "host/io/folder_lock.h"
@@ -69,6 +70,7 @@ int detect(DetectRequest& request) {
   const FolderLock lock(request.batch.out);
   const LoadedTemplates templates = load_templates_for(request, images, *backend);
   request.batch.templates = templates.origins;
+  warn_of_targets_without_model(images, templates.sets, request.dataset.targets);
   log(LogLevel::Info,
       fmt::format("{} images{}, {} models, on {}", images.size(),
                   request.batch.shard ? ", of them shard " + text_of(*request.batch.shard) : "",

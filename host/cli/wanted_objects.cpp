@@ -1,6 +1,11 @@
 #include "host/cli/wanted_objects.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+
+#include "host/core/log.h"
 
 namespace edgescout {
 
@@ -17,6 +22,24 @@ std::map<int, int> wanted_of(const std::vector<const InputImage*>& images) {
 }
 
 }  // namespace
+
+void warn_of_targets_without_model(std::span<const InputImage> images,
+                                   std::span<const TemplateSet> sets, const std::string& targets) {
+  std::set<int> objects;
+  int count = 0, all = 0;
+  for (const InputImage& image : images)
+    for (const auto& [id, instances] : image.wanted) {
+      ++all;
+      if (std::ranges::find(sets, id, &TemplateSet::object_id) != sets.end()) continue;
+      objects.insert(id);
+      ++count;
+    }
+  if (count > 0)
+    log(LogLevel::Warning,
+        fmt::format("{}: obj_id: found {}, expected objects with a model: {} of {} targets are not "
+                    "searched for",
+                    targets, fmt::join(objects, ", "), count, all));
+}
 
 std::span<const TemplateSet> WantedObjects::sets_for(const std::vector<const InputImage*>& images) {
   std::set<int> ids;

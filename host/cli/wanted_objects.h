@@ -3,12 +3,18 @@
 
 #include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "host/cli/inputs.h"
 #include "host/core/types.h"
 
 namespace edgescout {
+
+// Warns, once, of the objects that the list wants of these images and that have no model, with the
+// number of their targets. `targets` is the list's file.
+void warn_of_targets_without_model(std::span<const InputImage> images,
+                                   std::span<const TemplateSet> sets, const std::string& targets);
 
 class WantedObjects {
  public:

@@ -169,6 +169,22 @@ TEST(Dataset, ReportsAsManyInstancesAsTheTargetsSay) {
   EXPECT_EQ(images, std::vector<int>{0});
 }
 
+TEST(Dataset, WarnsOfTargetsWithoutAModel) {
+  const SmallDataset set(Views{{"", "gray"}, {"", "gray"}});
+  const fs::path targets = set.made.folder.write(
+      "t19.json", R"([{"scene_id": 3, "im_id": 0, "obj_id": 1, "inst_count": 1},
+                      {"scene_id": 3, "im_id": 0, "obj_id": 7, "inst_count": 2},
+                      {"scene_id": 3, "im_id": 1, "obj_id": 9, "inst_count": 1},
+                      {"scene_id": 3, "im_id": 1, "obj_id": 7, "inst_count": 1}])");
+  const Outcome outcome = run_program(
+      set.detect(set.root, joined({{"--split", "test", "--targets", targets}, set.model()})));
+  expect_done(outcome);
+  EXPECT_NE(outcome.err.find("t19.json: obj_id: found 7, 9, expected objects with a model: 3 of 4 "
+                             "targets are not searched for"),
+            std::string::npos)
+      << outcome.err;
+}
+
 // The groups of 2025 are worked on by themselves.
 TEST(Dataset, IsSearchedJointlyInTheGroupsOfTargets) {
   const SmallDataset set(Views{{"cam1", "rgb_cam1"}, {"cam1", "rgb_cam1"}, {"cam2", "rgb_cam2"}});
