@@ -20,8 +20,27 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
   return std::ranges::find(words, word) != words.end();
 }
 
+constexpr const char* mesh_types = ".stl, .ply, .obj, .cao, .gltf, .glb, .3mf, .dae or .off";
+
+[[noreturn]] void refuse_surfaces(const std::filesystem::path& file, const std::string& found) {
+  throw InputError(file.string(), "file type", found + " (surfaces without triangles)",
+                   std::string(mesh_types) + ": export an STL with the CAD program, or by gmsh " +
+                       file.filename().string() + " -2 -clcurv 24 -format stl -bin -o " +
+                       file.stem().string() + ".stl");
+}
+
+// A STEP file is one under any name. A file that is not there is refused for that.
+void refuse_step(const std::filesystem::path& file) {
+  constexpr std::string_view step = "ISO-10303-21";
+  std::string start(64, '\0');
+  open_file(file).read(start.data(), static_cast<std::streamsize>(start.size()));
+  const std::size_t first = start.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+  if (first != std::string::npos && start.compare(first, step.size(), step) == 0)
+    refuse_surfaces(file, "STEP");
+}
+
 RawMesh read_raw(const std::filesystem::path& file) {
-  open_file(file);  // a file that is not there is refused for that, whatever its name
+  refuse_step(file);
   const std::string extension = lower_case(file.extension().string());
   if (extension == ".stl") return read_stl(file);
   if (extension == ".cao") return read_cao(file);
@@ -29,14 +48,10 @@ RawMesh read_raw(const std::filesystem::path& file) {
   if (extension == ".obj") return read_obj(file);
   if (extension == ".off") return read_off(file);
   if (is_one_of(extension, {".gltf", ".glb", ".3mf", ".dae"})) return read_scene(file);
-  const std::string meshes = ".stl, .ply, .obj, .cao, .gltf, .glb, .3mf, .dae or .off";
   if (is_one_of(extension, {".step", ".stp", ".iges", ".igs", ".brep", ".brp"}))
-    throw InputError(file.string(), "file type", extension + " (surfaces without triangles)",
-                     meshes + ": export an STL with the CAD program, or by gmsh " +
-                         file.filename().string() + " -2 -clcurv 24 -format stl -bin -o " +
-                         file.stem().string() + ".stl");
+    refuse_surfaces(file, extension);
   throw InputError(file.string(), "file type", extension.empty() ? "no extension" : extension,
-                   meshes);
+                   mesh_types);
 }
 
 // Metres per unit of the file. The given unit decides: many files of formats that have a unit hold

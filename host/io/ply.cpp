@@ -238,7 +238,9 @@ class BodyReader {
 }  // namespace
 
 RawMesh read_ply(const std::filesystem::path& file) {
-  const std::string bytes = read_file(file), source = file.string();
+  std::string bytes = read_file(file);
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
+  const std::string source = file.string();
   const PlyHeader header = read_ply_header(bytes, source);
   const std::string_view body = std::string_view(bytes).substr(header.bytes);
   require_properties(header, body.size(), source);

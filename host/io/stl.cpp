@@ -58,6 +58,7 @@ void refuse_text(std::string_view bytes, const std::string& source) {
 }
 
 RawMesh read_counted(std::string_view bytes, const std::string& source) {
+  if (!bytes.empty() && bytes.size() < header_bytes) refuse_text(bytes, source);
   if (bytes.size() < header_bytes)
     throw InputError(source, "STL header", std::to_string(bytes.size()) + " bytes",
                      "at least 84 bytes");
@@ -96,9 +97,19 @@ class AsciiReader {
     if (const std::string found = keyword(word); found != word) tokens_.fail(word, found);
   }
 
+  bool begins_facet() const {
+    TextTokens ahead = tokens_;
+    return lower_case(std::string(ahead.word("name"))) == "facet" && !ahead.at_end() &&
+           lower_case(std::string(ahead.word("name"))) == "normal";
+  }
+  // It ends with the line, or where all of the file is one line, before the first facet.
+  void skip_name() {
+    while (!tokens_.at_line_end() && !begins_facet()) tokens_.word("name");
+  }
+
   void read_solid() {
     expect("solid");
-    tokens_.skip_line();  // the name
+    skip_name();
     for (std::string word = keyword("facet or endsolid"); word != "endsolid";
          word = keyword("facet or endsolid")) {
       if (word == "facet")
@@ -108,7 +119,8 @@ class AsciiReader {
       else
         tokens_.fail("facet or endsolid", word);
     }
-    tokens_.skip_line();
+    skip_name();
+    if (!tokens_.at_line_end()) tokens_.fail("one solid in a line", "facet behind endsolid");
   }
 
   // Reads: facet normal x y z, outer loop, vertex x y z for each corner, endloop, endfacet. The

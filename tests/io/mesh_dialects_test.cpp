@@ -89,6 +89,14 @@ TEST(StlDialects, ReadsWhatCommonWritersMakeOfTheWords) {
              substituted(text, "solid box\nfacet", "solid a facet, \xE4\ncolor 1 0 0\nfacet"));
 }
 
+TEST(StlDialects, ReadsAFileOfOneLine) {
+  const std::string line = substituted(ascii_stl(PART), "\n", " ");
+  expect_box("a.stl", line);
+  expect_box("a.stl", substituted(line, "solid box", "solid"));
+  expect_box("a.stl", substituted(line, "solid box", "solid the facet of a box"));
+  expect_refused("a.stl", line + line, {"line 1", "one solid in a line"});
+}
+
 TEST(StlDialects, ReadsNoNormal) {
   const std::string text = ascii_stl(PART);
   for (const char* normal :
@@ -196,6 +204,7 @@ TEST(PlyDialects, ReadsTextAsCommonWritersMakeIt) {
   expect_box("a.ply", substituted(text, "\n", "\r"));
   expect_box("a.ply", substituted(text, "\n", " \n"));
   expect_box("a.ply", substituted(text, "vertex_indices", "vertex_index"));
+  expect_box("a.ply", "\xEF\xBB\xBF" + text);
   expect_box("a.ply",
              substituted(substituted(text, "float", "float32"), "uchar int", "uint8 uint32"));
   expect_box("a.ply", substituted(text, "ply\nformat", "ply\ncomment TextureFile a.png\nformat"));

@@ -91,6 +91,15 @@ TEST(LoadMesh, RejectsAMissingFileAFolderAndAnUnknownType) {
   for (const char* name : {"part.step", "part.STP", "part.iges", "part.brep"})
     expect_input_error([&] { load_mesh(folder.write(name, "x"), LengthUnit::Metre); },
                        {name, "file type", ".cao", "export", "gmsh"});
+  for (const char* name : {"step.stl", "step.ply", "step.obj"})
+    expect_input_error(
+        [&] {
+          load_mesh(folder.write(name, "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\n"),
+                    LengthUnit::Metre);
+        },
+        {name, "file type", "STEP", "export", "gmsh"});
+  expect_input_error([&] { load_mesh(folder.write("page.stl", "<html>"), LengthUnit::Metre); },
+                     {"page.stl", "text that begins with <html>"});
   expect_input_error([&] { load_mesh(folder.write("part", "x"), LengthUnit::Metre); },
                      {"part", "no extension"});
 }
