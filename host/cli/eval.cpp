@@ -164,6 +164,7 @@ struct Row {
 struct Evaluation {
   std::vector<Row> rows;   // by object, "all" last
   std::set<int> left_out;  // objects of the scenes without a model here
+  int rows_without_pose = 0;
   std::ptrdiff_t images_without_depth = 0;
 };
 
@@ -204,9 +205,10 @@ Evaluation evaluate_objects(const EvalRequest& request) {
   std::map<int, Object> objects;
   for (Object& object : load_objects(request.models, EVALUATION_SYMMETRY_STEPS))
     objects[object.id] = std::move(object);
-  const std::vector<BopResult> results = load_bop_results(request.results);
-  std::vector<EvaluationImage> images = load_images(request, results);
   Evaluation evaluation;
+  const std::vector<BopResult> results =
+      load_bop_results(request.results, evaluation.rows_without_pose);
+  std::vector<EvaluationImage> images = load_images(request, results);
   evaluation.left_out = leave_out_others(images, objects, request);
   evaluation.images_without_depth = std::ranges::count_if(
       images, [](const EvaluationImage& image) { return image.depth_file.empty(); });
@@ -274,7 +276,8 @@ void save_json(const Evaluation& evaluation, const EvalRequest& request) {
                               {"max_mspd_px", o.max_mspd_px},
                               {"vsd_delta_m", request.vsd_delta_m},
                               {"symmetries", states_symmetries(request.models)},
-                              {"objects_left_out", evaluation.left_out}};
+                              {"objects_left_out", evaluation.left_out},
+                              {"rows_without_pose", evaluation.rows_without_pose}};
   for (const Row& row : evaluation.rows)
     (row.object == "all" ? root["all"] : root["objects"][row.object]) = row_json(row);
   require_writable_folder(parent_of_output(request.json_file));

@@ -85,9 +85,11 @@ struct BopResult {
   std::string camera_name;  // empty: not told
 };
 // Reads BOP's results. Rows that hold no pose (NaN, a matrix that is no rotation, too few numbers)
-// are left out; one warning counts them and names the first. InputError: the file has rows, and
-// none holds a pose.
+// are left out; one warning counts them and names the first. InputError: the file is empty, or it
+// has rows and none holds a pose.
 std::vector<BopResult> load_bop_results(const std::filesystem::path& file);
+// Sets `rows_without_pose` to the number of the rows left out.
+std::vector<BopResult> load_bop_results(const std::filesystem::path& file, int& rows_without_pose);
 // Writes BOP's results, with the column `camera` where a result has a camera.
 void save_bop_results(const std::vector<BopResult>& results,
                       const std::filesystem::path& file);  // atomically

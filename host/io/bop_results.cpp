@@ -206,6 +206,11 @@ void append(std::string& text, double value, char after) {
 }  // namespace
 
 std::vector<BopResult> load_bop_results(const std::filesystem::path& file) {
+  int rows_without_pose = 0;
+  return load_bop_results(file, rows_without_pose);
+}
+
+std::vector<BopResult> load_bop_results(const std::filesystem::path& file, int& rows_without_pose) {
   std::vector<BopResult> results;
   CsvLine line{file.string(), 0};
   PassedOver passed_over;
@@ -226,7 +231,10 @@ std::vector<BopResult> load_bop_results(const std::filesystem::path& file) {
       if (passed_over.rows++ == 0) passed_over.first = error.what();
     }
   }
+  if (!layout)
+    throw InputError(file.string(), "file", "nothing", "the columns " + std::string(header));
   report(passed_over, results.size(), file.string());
+  rows_without_pose = passed_over.rows;
   warn_of_projected(projected, file.string());
   return results;
 }

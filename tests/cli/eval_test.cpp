@@ -59,6 +59,20 @@ TEST(Eval, OfTheTruthIsOne) {
       << evaluated.outcome.out;
 }
 
+TEST(Eval, CountsRowsWithoutPose) {
+  const TemporaryFolder folder;
+  save_bop_results(true_results(load_bop_scene(one_view()), 0), folder.path() / "r.csv");
+  const std::string rows = content_of(folder.path() / "r.csv") + "48,0,2,0.1,,,0.1\n";
+  const fs::path json = folder.path() / "r.json";
+  const Outcome outcome = run_program({"eval", folder.write("r.csv", rows), one_view(), "--model",
+                                       part_file(2), "--unit", "mm", "--json", json});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(content_of(json)).at("rows_without_pose"), 1);
+  expect_refused(
+      {"eval", folder.write("empty.csv", ""), one_view(), "--model", part_file(2), "--unit", "mm"},
+      {"empty.csv", "nothing", "scene_id"});
+}
+
 // As BOP's own subsets are evaluated. Other objects in the scenes and results are neither misses
 // nor false positives.
 TEST(Eval, EvaluatesTheObjectsWhoseModelsAreGiven) {

@@ -280,11 +280,22 @@ TEST(BopResults, LeaveOutRowsWithoutPose) {
         "1,2,3,0.1,,,0.1", "1,2,3,0.1,1 0 0"}) {
     CollectedLog log;
     const auto file = folder.write("r.csv", good + row + "\n" + row + "\n" + good);
-    EXPECT_EQ(load_bop_results(file).size(), 2u) << row;
+    int rows_without_pose = 0;
+    EXPECT_EQ(load_bop_results(file, rows_without_pose).size(), 2u) << row;
+    EXPECT_EQ(rows_without_pose, 2) << row;
     ASSERT_EQ(log.messages.size(), 1u) << row;
     for (const char* words : {"r.csv: 2 of 4 rows hold no pose", "line 2"})
       EXPECT_NE(log.messages[0].second.find(words), std::string::npos) << log.messages[0].second;
   }
+}
+
+TEST(BopResults, AreNoEmptyFile) {
+  const TemporaryFolder folder;
+  for (const char* empty : {"", "\n", "# no rows\n"})
+    expect_input_error([&] { load_bop_results(folder.write("r.csv", empty)); },
+                       {"r.csv", "nothing", "scene_id,im_id"});
+  EXPECT_TRUE(
+      load_bop_results(folder.write("r.csv", "scene_id,im_id,obj_id,score,R,t,time\n")).empty());
 }
 
 TEST(BopResults, ReadMarksOfOtherSystems) {
