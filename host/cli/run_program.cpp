@@ -18,6 +18,7 @@
 #include "host/core/freed_memory.h"
 #include "host/core/log.h"
 #include "host/core/option_names.h"
+#include "host/io/one_line.h"
 
 namespace edgescout {
 
@@ -29,7 +30,7 @@ void send_log_to_stderr() {
   set_log_sink([](LogLevel level, const std::string& message) {
     constexpr spdlog::level::level_enum levels[] = {spdlog::level::debug, spdlog::level::info,
                                                     spdlog::level::warn, spdlog::level::err};
-    spdlog::log(levels[static_cast<int>(level)], message);
+    spdlog::log(levels[static_cast<int>(level)], one_line(message));  // names of files may break it
   });
 }
 
@@ -53,9 +54,7 @@ void add_log_level(CLI::App& app) {
 }
 
 int fail(const std::string& message, ExitCode code) {
-  std::string line = message;
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  std::cerr << "edgescout: error: " << line << std::endl;
+  std::cerr << "edgescout: error: " << one_line(message) << std::endl;
   return code;
 }
 
@@ -68,6 +67,21 @@ std::string lists_of(const CLI::App& verb) {
   return lists;
 }
 
+// Empty: it has none.
+std::string verbs_of(const CLI::App& app) {
+  std::string verbs;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (!verb->get_name().empty()) verbs += " " + verb->get_name();
+  return verbs;
+}
+
+std::string help_of(const CLI::App& verb) {
+  std::string names = verb.get_name();
+  for (const CLI::App* outer = verb.get_parent(); outer; outer = outer->get_parent())
+    names = outer->get_name() + " " + names;
+  return names + " --help-all";
+}
+
 // CLI11 reports a missing verb even if the verb is misspelt.
 std::string explanation(const CLI::ParseError& error, const CLI::App& app) {
   if (const std::string name = std::string(error.what()).substr(0, 6);
@@ -75,12 +89,21 @@ std::string explanation(const CLI::ParseError& error, const CLI::App& app) {
     if (const std::string lists = lists_of(*app.get_subcommands().front()); !lists.empty())
       return "command line: " + name + ": found none: " + lists +
              " took what stands behind, expected " + name + " before it";
-  const std::vector<std::string> unknown = app.remaining();
-  if (!app.get_subcommands().empty() || unknown.empty()) return error.what();
-  std::string verbs;
-  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
-    verbs += " " + verb->get_name();
-  return "command line: found " + unknown.front() + ", expected one of:" + verbs;
+  constexpr std::string_view required = " is required";
+  const std::string text = error.what();
+  const bool is_required = text.ends_with(required);
+  if (!is_required && !dynamic_cast<const CLI::ExtrasError*>(&error)) return text;
+  const CLI::App* verb = &app;
+  while (!verb->get_subcommands().empty()) verb = verb->get_subcommands().front();
+  const std::vector<std::string> unknown = app.remaining(true);
+  const std::string found = unknown.empty() ? "" : "command line: found " + unknown.front();
+  if (const std::string verbs = verbs_of(*verb); !verbs.empty())
+    return (found.empty() ? "command line: found no subcommand" : found) +
+           ", expected one of:" + verbs;
+  if (!found.empty()) return found + ", expected what " + help_of(*verb) + " lists";
+  if (!is_required) return text;
+  return "command line: " + text.substr(0, text.size() - required.size()) +
+         ": found nothing, expected a value (" + help_of(*verb) + ")";
 }
 
 int run(int argc, char** argv) {

@@ -172,9 +172,12 @@ TEST(Program, SendsAblationsToTheExperiments) {
 TEST(Program, RejectsACommandLineItDoesNotUnderstand) {
   expect_bad_request({}, {"subcommand"});
   expect_bad_request({"detekt"}, {"detekt", "devices", "model"});
-  expect_bad_request({"devices", "--jsn"}, {"--jsn"});
+  expect_bad_request({"devices", "--jsn"},
+                     {"command line: found --jsn, expected what edgescout devices --help-all"});
+  expect_bad_request({"detect"}, {"inputs: found nothing, expected a value (edgescout detect"});
   expect_bad_request({"devices", "--log-level", "loud"}, {"--log-level", "loud"});
-  expect_bad_request({"model"}, {"subcommand"});
+  expect_bad_request({"model"}, {"found no subcommand, expected one of:", "inspect"});
+  expect_bad_request({"model", "inspekt"}, {"found inspekt, expected one of:", "inspect"});
 }
 
 TEST(Devices, ListsThemAsTextAndJson) {
