@@ -36,6 +36,20 @@ Range robust_range(const cv::Mat& grey, const std::string& source) {
   return {*low, *high};
 }
 
+// Hot pixels of a sensor of fewer bits, up to a hundredth of all, have the largest value of the
+// type, and hardly a pixel has a value between. They are more than the outliers of robust_range.
+Range without_hot_pixels(const Range& robust, const cv::Mat& grey, double largest,
+                         const std::string& source) {
+  constexpr double most = 0.01;
+  const cv::Mat is_hot = grey == largest;
+  const int hot = cv::countNonZero(is_hot);
+  if (robust.high < largest || hot > most * double(grey.total())) return robust;
+  cv::Mat others = grey.clone();
+  others.setTo(std::nan(""), is_hot);
+  const Range range = robust_range(others, source);
+  return range.high <= (1 << 14) - 1 ? range : robust;
+}
+
 bool is_real(int depth) { return depth == CV_32F || depth == CV_64F; }
 
 // White of the least deep sensor whose values these may be: 8, 10, 12, 14 or 16 bit, or 1 of real
@@ -65,8 +79,10 @@ Range full_range(int depth) {
 // The thresholds of edges are differences of grey levels. The sensor's own range gives an image
 // the edges that its 8-bit version has, exactly. Where the image fills little of it, as with an
 // offset, its own range is the better guess. Whole steps are not enlarged: they may be noise.
-Range chosen_range(const Range& robust, bool real) {
-  const double white = white_of_sensor(robust.high, real);
+Range chosen_range(const Range& robust, int depth) {
+  const bool real = is_real(depth);
+  double white = white_of_sensor(robust.high, real);
+  if (!real) white = std::min(white, full_range(depth).high);
   const double span = robust.high - robust.low;
   if (robust.low >= 0 && white > 0 && span >= least_share * white) return {0, white};
   const double largest = std::max(std::abs(robust.low), std::abs(robust.high));
@@ -81,8 +97,11 @@ Range range_of(const cv::Mat& grey, int depth, const ImageOptions& options,
                const std::string& source) {
   if (!options.black_white.empty()) return {options.black_white[0], options.black_white[1]};
   if (options.scaling == GreyScaling::Full) return full_range(depth);
-  const Range robust = robust_range(grey, source);
-  if (options.scaling == GreyScaling::Auto) return chosen_range(robust, is_real(depth));
+  Range robust = robust_range(grey, source);
+  if (options.scaling == GreyScaling::Auto) {
+    if (depth == CV_16U) robust = without_hot_pixels(robust, grey, full_range(depth).high, source);
+    return chosen_range(robust, depth);
+  }
   return {robust.low, std::max(robust.high, std::nextafter(float(robust.low), INFINITY) + 0.0)};
 }
 

@@ -88,6 +88,29 @@ TEST(LoadImage, GivesDeepImagesTheLevelsOfTheirEightBitVersions) {
   }
 }
 
+TEST(LoadImage, LeavesHotPixelsOut) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "hot.png";
+  const auto with_hot_pixels = [&](int count) {
+    cv::Mat deep = ramp(CV_16U, 4095 / 255.0);
+    for (int i = 0; i < count; ++i) deep.at<std::uint16_t>(20 + i / 200, i % 200) = 65535;
+    cv::imwrite(file.string(), deep);
+    return load_image(file);
+  };
+  expect_ramp(with_hot_pixels(40), 0, "0.3 %");
+  expect_ramp(with_hot_pixels(120), 0, "0.9 %");
+  EXPECT_EQ(with_hot_pixels(1000).at(255, 10), 16);  // 8 %: a bright surface
+}
+
+TEST(LoadImage, KnowsWhereASignedTypeEnds) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "signed.tif";
+  cv::imwrite(file.string(), ramp(CV_16S, 100));
+  if (cv::imread(file.string(), cv::IMREAD_UNCHANGED).depth() != CV_16S)
+    GTEST_SKIP() << "this OpenCV writes no signed TIFF";
+  EXPECT_NEAR(load_image(file).at(255, 10), 255 * 25500.0 / 32767, 1);
+}
+
 TEST(LoadImage, SpreadsTheValuesOfAnImageWithLittleContrast) {
   const TemporaryFolder folder;
   for (const auto& [scale, offset] : {std::pair{20.0, 30000.0}, {2.0, 1000.0}, {0.05, -6.0}}) {
