@@ -68,6 +68,8 @@ const std::map<std::string, LensWord, std::less<>> lens_words{
     {"pinholeequidistant", LensWord::Fisheye},
     {"fisheye", LensWord::Fisheye},
     {"opencvfisheye", LensWord::Fisheye},
+    {"cvfisheye", LensWord::Fisheye},  // cv::fisheye
+    {"cv2fisheye", LensWord::Fisheye},
     {"pinholefisheye", LensWord::Fisheye},
     {"kannalabrandt", LensWord::Fisheye},
     {"kannalabrandt4", LensWord::Fisheye},

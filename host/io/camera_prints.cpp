@@ -112,12 +112,66 @@ json realsense_print(const std::vector<std::string>& lines) {
           {"coeffs", numbers_in(line.substr(list_at))}};
 }
 
+// The name before a bracket: "sensor_msgs.msg.CameraInfo(" without it. Empty: there is none.
+std::string_view message_name_at(std::string_view text, std::size_t at) {
+  constexpr std::size_t longest = 60;
+  const std::string_view ahead = text.substr(at, longest);
+  const std::string_view name = ahead.substr(0, ahead.find('('));
+  return name.size() < ahead.size() && is_name(name) ? name : std::string_view();
+}
+
+// "a.Name(x=1, y=b.Other(z=[2]))" -> "{x: 1, y: {z: [2]}}". Within array(..) stand a list and,
+// before or after it, its type.
+std::string message_as_yaml(std::string_view text) {
+  std::string yaml;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const bool begins_name = std::isalpha(static_cast<unsigned char>(text[at])) != 0;
+    const std::string_view name = begins_name ? message_name_at(text, at) : std::string_view();
+    if (name == "array") {
+      const std::size_t open = text.find('[', at), close = text.find(']', open);
+      if (close == std::string_view::npos) return std::string(text);
+      yaml += text.substr(open, close + 1 - open);
+      at = std::min(text.find(')', close), text.size());
+    } else if (!name.empty()) {
+      yaml += '{';
+      at += name.size();
+    } else if (begins_name) {
+      const std::size_t end = std::min(text.find_first_of("=,()[]' \n", at), text.size());
+      yaml += text.substr(at, end - at);
+      at = end - 1;
+    } else {
+      yaml +=
+          text[at] == '=' ? std::string(": ") : std::string(1, text[at] == ')' ? '}' : text[at]);
+    }
+  }
+  return yaml;
+}
+
 }  // namespace
 
 json printed_camera_tree(const std::vector<std::string>& lines, const std::string& source) {
   if (json tree = realsense_print(lines); !tree.is_null()) return tree;
   if (json tree = table_of_cameras(lines, source); !tree.is_null()) return tree;
   return names_before_numbers(lines, source);
+}
+
+std::string without_ros_prints(const std::string& text) {
+  if (const std::size_t start = text.find_first_not_of(" \t\n");
+      start != std::string::npos && message_name_at(text, start).ends_with("CameraInfo"))
+    return message_as_yaml(text);
+  constexpr std::string_view lost = "A message was lost!!!", last = "total count: ";
+  constexpr std::size_t most_between = 60;
+  std::string kept;
+  std::size_t at = 0;
+  for (std::size_t found; (found = text.find(lost, at)) != std::string::npos;) {
+    kept.append(text, at, found - at);
+    at = found + lost.size();
+    const std::string_view ahead = std::string_view(text).substr(at, most_between);
+    if (const std::size_t count = ahead.find(last); count != std::string_view::npos)
+      at = std::min(text.find_first_not_of("0123456789", at + count + last.size()), text.size());
+    kept += '\n';
+  }
+  return kept.append(text, at);
 }
 
 std::string printed_as_yaml(const std::string& text) {

@@ -93,7 +93,7 @@ void add_field(json& object, const std::string& name, json value, const std::str
 }
 
 json parse_camera_tree(const std::string& bytes, const std::string& source, bool is_json) {
-  const std::string text = plain_text(bytes, source);
+  const std::string text = without_ros_prints(plain_text(bytes, source));
   const std::size_t start = text.find_first_not_of(" \t\n");
   if (start == std::string::npos)
     throw InputError(source, "file", "nothing", "a camera calibration");

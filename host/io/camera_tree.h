@@ -26,6 +26,9 @@ nlohmann::json text_camera_tree(std::string_view text, const std::string& source
 // librealsense's intrinsics. Null: none of these.
 nlohmann::json printed_camera_tree(const std::vector<std::string>& lines,
                                    const std::string& source);
+// ROS 2: messages as Python prints them (`CameraInfo(height=480, ..)`) become YAML; what `ros2
+// topic echo` says of lost messages is left out. Other texts come back unchanged.
+std::string without_ros_prints(const std::string& text);
 // Python's dictionary, and fields of one line, as YAML. Other texts come back unchanged.
 std::string printed_as_yaml(const std::string& text);
 // Names that stand above their numbers (numpy's print). Null: no matrix has one, or a name stands

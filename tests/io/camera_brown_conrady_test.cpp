@@ -75,6 +75,19 @@ k:
 roi: {x_offset: 0, y_offset: 0, height: 480, width: 640, do_rectify: false}
 ---
 )"},
+    {"ROS 2, printed by Python", "info.txt",
+     "sensor_msgs.msg.CameraInfo(header=std_msgs.msg.Header(stamp=builtin_interfaces.msg.Time(sec="
+     "1, "
+     "nanosec=2), frame_id='cam'), height=480, width=640, distortion_model='plumb_bob', "
+     "d=array('d', "
+     "[-0.25, 0.12, 0.001, -0.0005, 0.0]), k=array([700., 0., 321., 0., 701., 238., 0., 0., 1.], "
+     "dtype=float64), r=[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0], binning_x=0, binning_y=0, "
+     "roi=sensor_msgs.msg.RegionOfInterest(x_offset=0, y_offset=0, height=0, width=0, "
+     "do_rectify=False))\n"},
+    {"ROS 2 echo behind lost messages", "echo.txt",
+     "A message was lost!!!\n\ttotal count change:1\n\ttotal count: 1---\nheight: 480\nwidth: "
+     "640\ndistortion_model: plumb_bob\nd: [-0.25, 0.12, 0.001, -0.0005]\nk: [700, 0, 321, 0, 701, "
+     "238, 0, 0, 1]\n---\nA message was lost!!!\n\ttotal count change:1\n\ttotal count: 2---\n"},
     {"ROS ost.txt", "ost.txt", R"(# oST version 5.0 parameters
 
 

@@ -72,6 +72,10 @@ Camera.height: 480
  "distortionCoeff": [-0.03, 0.01, -0.005, 0.001, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], "height": 480,
  "intrinsicMatrix": [[700, 0, 321], [0, 701, 238], [0, 0, 1]], "specHfovDeg": 127,
  "width": 640}]]})"},
+    {"OpenCV's namespace", "c.json", R"({"camera_model": "cv::fisheye", "width": 640, "height": 480,
+ "K": [700, 0, 321, 0, 701, 238, 0, 0, 1], "D": [-0.03, 0.01, -0.005, 0.001]})"},
+    {"Python's namespace", "c.json", R"({"model": "cv2.fisheye", "width": 640, "height": 480,
+ "K": [700, 0, 321, 0, 701, 238, 0, 0, 1], "D": [-0.03, 0.01, -0.005, 0.001]})"},
     {"Pupil Labs", "world.json", R"({"camera_matrix": [[700, 0, 321], [0, 701, 238], [0, 0, 1]],
  "dist_coefs": [[-0.03], [0.01], [-0.005], [0.001]], "cam_type": "fisheye",
  "CameraResolution": {"Width": 640, "Height": 480}})"},
@@ -180,8 +184,8 @@ TEST(CameraFormats, WarnsOfNamesThatSpeakOfAFisheye) {
   }
   // In a list the name is no field.
   const CollectedLog log;
-  const Camera camera =
-      load_one("c.json", R"([{"camera_name": "fisheye", )" + head + R"(, "D": [-0.03, 0.01, 0, 0]}])");
+  const Camera camera = load_one(
+      "c.json", R"([{"camera_name": "fisheye", )" + head + R"(, "D": [-0.03, 0.01, 0, 0]}])");
   EXPECT_EQ(camera.lens, LensModel::BrownConrady);
   EXPECT_EQ(log.messages.size(), 1u);
 }
