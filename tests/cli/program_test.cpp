@@ -180,6 +180,16 @@ TEST(Program, RejectsACommandLineItDoesNotUnderstand) {
   expect_bad_request({"model", "inspekt"}, {"found inspekt, expected one of:", "inspect"});
 }
 
+TEST(Program, KeepsWarningsToOneLine) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run_program({"camera", folder.write("a\nb.yaml",
+                                          "image_width: 640\nimage_height: 480\n"
+                                          "K: [700, 0, 319.5, 0, 1400, 239.5, 0, 0, 1]\n")});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("a b.yaml: "), std::string::npos) << outcome.err;
+}
+
 TEST(Devices, ListsThemAsTextAndJson) {
   const Outcome text = run_program({"devices"});
   EXPECT_EQ(text.exit_code, 0) << text.err;
