@@ -78,12 +78,13 @@ std::vector<RecordedViews::Recording> visp_recordings(const fs::path& folder) {
 
 }  // namespace
 
-RecordedViews::RecordedViews(const Camera& camera, std::vector<Recording> recordings)
-    : camera_(camera), recordings_(std::move(recordings)) {
+RecordedViews::RecordedViews(const Camera& camera, std::vector<Recording> recordings,
+                             const ImageOptions& reading)
+    : camera_(camera), recordings_(std::move(recordings)), reading_(reading) {
   if (recordings_.empty()) throw InputError("recorded views: found none, expected at least one");
   for (std::size_t i = 0; camera_.width == 0; ++i) {
     try {
-      const Image image = load_image(recordings_[i].file);
+      const Image image = load_image(recordings_[i].file, reading_);
       camera_.width = image.width;
       camera_.height = image.height;
     } catch (const InputError&) {
@@ -104,19 +105,19 @@ Shot RecordedViews::acquire(int view) {
         "RecordedViews::acquire: no such view");
   const Recording& recording = recordings_[static_cast<std::size_t>(view)];
   try {
-    return {load_image(recording.file), recording.camera_from_world};
+    return {load_image(recording.file, reading_), recording.camera_from_world};
   } catch (const InputError& error) {
     throw AcquisitionError(error.what());
   }
 }
 
 RecordedViews load_recorded_views(const fs::path& folder, const std::optional<Camera>& given,
-                                  const std::string& camera_name) {
+                                  const std::string& camera_name, const ImageOptions& reading) {
   Camera camera = given.value_or(Camera{});
   if (is_bop_scene(folder)) {
     const std::vector<RecordedViews::Recording> recordings =
         bop_recordings(load_bop_images(folder, camera_name), camera);
-    return {camera, recordings};
+    return {camera, recordings, reading};
   }
   if (!fs::is_directory(folder / "CameraPose"))
     throw InputError(folder.string(), "folder", "neither scene_camera.json nor CameraPose",
@@ -124,7 +125,7 @@ RecordedViews load_recorded_views(const fs::path& folder, const std::optional<Ca
   if (!given)
     throw InputError(folder.string(), "camera", "none",
                      "one: these recordings bring none of their own");
-  return {camera, visp_recordings(folder)};
+  return {camera, visp_recordings(folder), reading};
 }
 
 }  // namespace edgescout

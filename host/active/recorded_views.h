@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/active/source.h"
+#include "host/io/image_options.h"
 
 namespace edgescout {
 
@@ -21,7 +22,8 @@ class RecordedViews : public ViewSource {
   };
   // Makes a source of recordings. A camera of size 0 x 0 takes the size of the first readable
   // image. InputError: no recording, none that can be read, an invalid camera.
-  RecordedViews(const Camera& camera, std::vector<Recording> recordings);
+  RecordedViews(const Camera& camera, std::vector<Recording> recordings,
+                const ImageOptions& reading = {});
   Camera camera() const override { return camera_; }
   std::vector<Se3> views() const override;
   Shot acquire(int view) override;  // LogicError: no such view
@@ -30,6 +32,7 @@ class RecordedViews : public ViewSource {
  private:
   Camera camera_;
   std::vector<Recording> recordings_;
+  ImageOptions reading_;
 };
 
 // Reads a folder of one of two forms.
@@ -44,6 +47,7 @@ class RecordedViews : public ViewSource {
 // view without world pose, images of different cameras, a matrix that is not rigid.
 RecordedViews load_recorded_views(const std::filesystem::path& folder,
                                   const std::optional<Camera>& camera = {},
-                                  const std::string& camera_name = "");
+                                  const std::string& camera_name = "",
+                                  const ImageOptions& reading = {});
 
 }  // namespace edgescout

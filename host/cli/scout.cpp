@@ -251,7 +251,10 @@ void add_scout(CLI::App& app, int& exit_code) {
     // A resumed run may have another budget, another strategy and other options of the expected
     // information: they do not change earlier detections or the belief.
     std::set<std::string> groups{"Belief", "Templates", "Edges", "Tensor", "Detection", "Depth"};
-    if (request->source.source == "cell") groups.insert({"Scene", "Image", "Arm", "Depth sensor"});
+    if (request->source.source == "cell")
+      groups.insert({"Scene", "Image", "Arm", "Depth sensor"});
+    else
+      groups.insert("Images");
     request->source.settings = settings_of(*verb, groups);
     request->planning = settings_of(*verb, {"Information", "Next view", "Budget"});
     refuse_unused(*verb);

@@ -146,6 +146,7 @@ std::unique_ptr<ViewSource> with_depth(RecordedViews views, std::span<const BopI
 }
 
 ScoutSource make_recorded(const SourceRequest& request, ThreadPool& pool) {
+  request.images.validate();
   if (!request.views_file.empty())
     throw InputError("command line", "--views", "a list for recorded views", "their own poses");
   if (!std::filesystem::is_directory(request.source))
@@ -169,7 +170,7 @@ ScoutSource make_recorded(const SourceRequest& request, ThreadPool& pool) {
                              request.camera.file.empty() ? "its own" : text_of(request.camera));
   const std::string camera_name = camera_of(request);
   if (!camera_name.empty()) made.settings.emplace_back("camera's name", camera_name);
-  RecordedViews views = load_recorded_views(request.source, camera, camera_name);
+  RecordedViews views = load_recorded_views(request.source, camera, camera_name, request.images);
   for (const RecordedViews::Recording& recording : views.recordings())
     made.image_files.push_back(recording.file);
   BopScene scene;
@@ -215,6 +216,7 @@ void add_source_options(CLI::App& verb, SourceRequest& r) {
   add_depth(verb, r.depth);
   CommandLineOptions sensor(verb);
   describe_errors(r.scene.depth, sensor);
+  describe(r.images, sensor);
   add_hemisphere_options(verb, r);
   add_scene_options(verb, r.scene, OptionLevel::Expert);
   OptionTable(verb, "Arm", OptionLevel::Expert)
@@ -234,6 +236,8 @@ void refuse_unused(const CLI::App& verb) {
     if (!is_cell && (group == "Scene" || group == "Image" || group == "Arm" || group == "Views" ||
                      group == "Depth sensor"))
       throw InputError("command line", name, "together with recorded views", "it with a cell");
+    if (is_cell && group == "Images")
+      throw InputError("command line", name, "together with a cell", "it with recorded views");
     if (has_list && group == "Views" && name != "--radius")  // which sizes the board as well
       throw InputError("command line", name, "together with --views", "one of the two");
   }

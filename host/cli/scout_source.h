@@ -15,6 +15,7 @@ struct SourceRequest {
   CameraArguments camera;    // of recorded views
   DatasetArguments dataset;  // of recorded views: at most one camera
   DepthArguments depth;
+  ImageOptions images;     // of recorded views
   std::string views_file;  // of a cell, in place of the hemisphere
   RenderOptions scene;     // of a cell
   ArmNoise arm;

@@ -112,6 +112,39 @@ json realsense_print(const std::vector<std::string>& lines) {
           {"coeffs", numbers_in(line.substr(list_at))}};
 }
 
+// A line of `ros2 topic echo --csv`, which has no names: stamp (2), frame_id, height, width, model,
+// d, k (9), r (9), p (12), binning (2), roi (5). What is left over is d. Null: of another form.
+json ros2_row(const std::string& line) {
+  constexpr std::size_t before = 6, behind = 9 + 9 + 12 + 2 + 5;
+  const std::vector<std::string> cells = cells_of(line, ',');
+  if (cells.size() < before + behind || !is_name(cells[5])) return nullptr;
+  std::vector<json> values;
+  for (const std::string& cell : cells) values.push_back(scalar_of(cell));
+  for (std::size_t i = 0; i + 1 < values.size(); ++i)
+    if (i != 2 && i != 5 && !values[i].is_number()) return nullptr;
+  if (!values.back().is_boolean()) return nullptr;  // do_rectify
+  const auto k = values.end() - behind, roi = values.end() - 5;
+  return {
+      {"height", values[3]},
+      {"width", values[4]},
+      {"distortion_model", cells[5]},
+      {"d", json(std::vector<json>(values.begin() + before, k))},
+      {"k", json(std::vector<json>(k, k + 9))},
+      {"binning_x", roi[-2]},
+      {"binning_y", roi[-1]},
+      {"roi", {{"x_offset", roi[0]}, {"y_offset", roi[1]}, {"height", roi[2]}, {"width", roi[3]}}}};
+}
+
+json ros2_rows(const std::vector<std::string>& lines) {
+  json cameras = json::array();
+  for (const std::string& line : lines) {
+    json camera = ros2_row(line);
+    if (camera.is_null()) return nullptr;
+    cameras.push_back(std::move(camera));
+  }
+  return cameras;
+}
+
 // The name before a bracket: "sensor_msgs.msg.CameraInfo(" without it. Empty: there is none.
 std::string_view message_name_at(std::string_view text, std::size_t at) {
   constexpr std::size_t longest = 60;
@@ -151,6 +184,7 @@ std::string message_as_yaml(std::string_view text) {
 
 json printed_camera_tree(const std::vector<std::string>& lines, const std::string& source) {
   if (json tree = realsense_print(lines); !tree.is_null()) return tree;
+  if (json tree = ros2_rows(lines); !tree.is_null()) return tree;
   if (json tree = table_of_cameras(lines, source); !tree.is_null()) return tree;
   return names_before_numbers(lines, source);
 }

@@ -44,6 +44,16 @@ TEST(RecordedViews, AreThoseOfABopScene) {
   }
 }
 
+TEST(RecordedViews, AreReadWithTheOptionsOfImages) {
+  const Recorded t;
+  ImageOptions reading;
+  reading.black_white = {0, 127.5};
+  RecordedViews source = load_recorded_views(t.bop, {}, "", reading);
+  const std::vector<std::uint8_t> pixels = source.acquire(0).image.pixels;
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    ASSERT_NEAR(pixels[i], std::min(255, 2 * t.renderings[0].image.pixels[i]), 1);
+}
+
 TEST(RecordedViews, AnImageThatCannotBeReadIsAFailedAcquisition) {
   const Recorded t;
   fs::remove(t.bop / "gray/000000.png");

@@ -285,6 +285,7 @@ TEST(Scout, RefusesWhatItCannotUse) {
              "one of them, such as " + (examples() / "scenes").string()});
   refused({"scout", "cell", "--out", t.out, "--device", "cpu"}, {"--model"});
   refused(t.arguments({"--camera", "x.yaml"}), {"--camera", "cell"});
+  refused(t.arguments({"--bayer", "rggb"}), {"--bayer", "cell", "recorded views"});
   refused(t.arguments({"--strategy", "best"}), {"strategy", "best", "mi-max"});
   refused(t.arguments({"--first-view", "8"}), {"--first-view", "8 views"});
   refused(t.arguments({"--strategy", "fixed", "--sequence", "1", "99"}),

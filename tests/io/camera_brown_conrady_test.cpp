@@ -84,6 +84,11 @@ roi: {x_offset: 0, y_offset: 0, height: 480, width: 640, do_rectify: false}
      "dtype=float64), r=[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0], binning_x=0, binning_y=0, "
      "roi=sensor_msgs.msg.RegionOfInterest(x_offset=0, y_offset=0, height=0, width=0, "
      "do_rectify=False))\n"},
+    {"ROS 2 echo --csv", "info.csv",
+     "1,2,cam,480,640,plumb_bob,-0.25,0.12,0.001,-0.0005,0.0,700.0,0.0,321.0,0.0,701.0,238.0,0.0,0."
+     "0,"
+     "1.0,1.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0,650.0,0.0,320.0,0.0,0.0,650.0,240.0,0.0,0.0,0.0,1.0,"
+     "0.0,0,0,0,0,0,0,False\n"},
     {"ROS 2 echo behind lost messages", "echo.txt",
      "A message was lost!!!\n\ttotal count change:1\n\ttotal count: 1---\nheight: 480\nwidth: "
      "640\ndistortion_model: plumb_bob\nd: [-0.25, 0.12, 0.001, -0.0005]\nk: [700, 0, 321, 0, 701, "
