@@ -206,8 +206,8 @@ Evaluation evaluate_objects(const EvalRequest& request) {
   for (Object& object : load_objects(request.models, EVALUATION_SYMMETRY_STEPS))
     objects[object.id] = std::move(object);
   Evaluation evaluation;
-  const std::vector<BopResult> results =
-      load_bop_results(request.results, evaluation.rows_without_pose);
+  const auto [results, rows_without_pose] = load_bop_result_rows(request.results);
+  evaluation.rows_without_pose = rows_without_pose;
   std::vector<EvaluationImage> images = load_images(request, results);
   evaluation.left_out = leave_out_others(images, objects, request);
   evaluation.images_without_depth = std::ranges::count_if(

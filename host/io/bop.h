@@ -88,8 +88,12 @@ struct BopResult {
 // are left out; one warning counts them and names the first. InputError: the file is empty, or it
 // has rows and none holds a pose.
 std::vector<BopResult> load_bop_results(const std::filesystem::path& file);
-// Sets `rows_without_pose` to the number of the rows left out.
-std::vector<BopResult> load_bop_results(const std::filesystem::path& file, int& rows_without_pose);
+struct BopResultRows {
+  std::vector<BopResult> results;
+  int rows_without_pose = 0;  // left out
+};
+// Reads them with the number of the rows left out.
+BopResultRows load_bop_result_rows(const std::filesystem::path& file);
 // Writes BOP's results, with the column `camera` where a result has a camera.
 void save_bop_results(const std::vector<BopResult>& results,
                       const std::filesystem::path& file);  // atomically

@@ -206,11 +206,10 @@ void append(std::string& text, double value, char after) {
 }  // namespace
 
 std::vector<BopResult> load_bop_results(const std::filesystem::path& file) {
-  int rows_without_pose = 0;
-  return load_bop_results(file, rows_without_pose);
+  return load_bop_result_rows(file).results;
 }
 
-std::vector<BopResult> load_bop_results(const std::filesystem::path& file, int& rows_without_pose) {
+BopResultRows load_bop_result_rows(const std::filesystem::path& file) {
   std::vector<BopResult> results;
   CsvLine line{file.string(), 0};
   PassedOver passed_over;
@@ -234,9 +233,8 @@ std::vector<BopResult> load_bop_results(const std::filesystem::path& file, int& 
   if (!layout)
     throw InputError(file.string(), "file", "nothing", "the columns " + std::string(header));
   report(passed_over, results.size(), file.string());
-  rows_without_pose = passed_over.rows;
   warn_of_projected(projected, file.string());
-  return results;
+  return {std::move(results), passed_over.rows};
 }
 
 void save_bop_results(const std::vector<BopResult>& results, const std::filesystem::path& file) {

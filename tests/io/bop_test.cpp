@@ -280,9 +280,9 @@ TEST(BopResults, LeaveOutRowsWithoutPose) {
         "1,2,3,0.1,,,0.1", "1,2,3,0.1,1 0 0"}) {
     CollectedLog log;
     const auto file = folder.write("r.csv", good + row + "\n" + row + "\n" + good);
-    int rows_without_pose = 0;
-    EXPECT_EQ(load_bop_results(file, rows_without_pose).size(), 2u) << row;
-    EXPECT_EQ(rows_without_pose, 2) << row;
+    const BopResultRows rows = load_bop_result_rows(file);
+    EXPECT_EQ(rows.results.size(), 2u) << row;
+    EXPECT_EQ(rows.rows_without_pose, 2) << row;
     ASSERT_EQ(log.messages.size(), 1u) << row;
     for (const char* words : {"r.csv: 2 of 4 rows hold no pose", "line 2"})
       EXPECT_NE(log.messages[0].second.find(words), std::string::npos) << log.messages[0].second;
