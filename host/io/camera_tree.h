@@ -22,8 +22,8 @@ nlohmann::json xml_camera_tree(std::string_view text, const std::string& source)
 nlohmann::json text_camera_tree(std::string_view text, const std::string& source);
 
 // What programs print of a camera, as lines without empty ones: a table below names (rostopic echo
-// -p) with commas, semicolons or tabs, cells in quotes or not; ROS 2's rows without names; a name and its numbers in each line;
-// librealsense's intrinsics. Null: none of these.
+// -p) with commas, semicolons or tabs, cells in quotes or not; ROS 2's rows without names; a name
+// and its numbers in each line; librealsense's intrinsics. Null: none of these.
 nlohmann::json printed_camera_tree(const std::vector<std::string>& lines,
                                    const std::string& source);
 // ROS 2: messages as Python prints them (`CameraInfo(height=480, ..)`) become YAML; what `ros2

@@ -58,7 +58,6 @@ void refuse_text(std::string_view bytes, const std::string& source) {
 }
 
 RawMesh read_counted(std::string_view bytes, const std::string& source) {
-  if (!bytes.empty() && bytes.size() < header_bytes) refuse_text(bytes, source);
   if (bytes.size() < header_bytes)
     throw InputError(source, "STL header", std::to_string(bytes.size()) + " bytes",
                      "at least 84 bytes");
