@@ -21,10 +21,13 @@ struct TimeLimit {
   // on to do so (latched).
   std::function<bool()> cancelled;
 
+  // Over at once where `seconds` are negative or NaN. Of thirty years and more (infinity), the
+  // deadline is the clock's last moment.
   static TimeLimit after(double seconds) {
-    return {Clock::now() +
-                std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)),
-            {}};
+    constexpr double most_s = 1e9;  // the clock counts ten times as many
+    if (seconds >= most_s) return {Clock::time_point::max(), {}};
+    const std::chrono::duration<double> given(seconds > 0 ? seconds : 0);
+    return {Clock::now() + std::chrono::duration_cast<Clock::duration>(given), {}};
   }
 
   bool is_set() const { return deadline || cancelled; }

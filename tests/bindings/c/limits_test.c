@@ -37,7 +37,7 @@ static void expect_limits_of_detection(const struct scene* scene) {
   CHECK(completion_within(scene, &limit) == EDGESCOUT_COMPLETE);
   limit.max_seconds = 1e-9;
   CHECK(completion_within(scene, &limit) == EDGESCOUT_DEADLINE_PASSED);
-  limit.max_seconds = 1e300;
+  limit.max_seconds = INFINITY;
   CHECK(completion_within(scene, &limit) == EDGESCOUT_COMPLETE);
   edgescout_request request = scene->request;
   request.limit = &limit;

@@ -57,6 +57,18 @@ def test_ends_at_the_deadline(scene):
     assert not cut.is_complete and len(cut) == 0
 
 
+@pytest.mark.parametrize("seconds", [1e10, 1e300, float("inf")])
+def test_does_not_end_before_a_long_time(scene, found, seconds):
+    other = scene.detect(scene.image, max_seconds=seconds)
+    assert other.is_complete and len(other) == len(found)
+
+
+@pytest.mark.parametrize("seconds", [-1, float("nan"), -float("inf")])
+def test_refuses_what_is_no_time(scene, seconds):
+    with pytest.raises(ValueError, match="max_seconds: found .*, expected 0 or more"):
+        scene.detect(scene.image, max_seconds=seconds)
+
+
 def test_other_threads_run_meanwhile(scene):
     """The interpreter's lock is released: another thread counts while detection works."""
     counted, done = 0, threading.Event()

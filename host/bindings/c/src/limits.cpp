@@ -10,13 +10,11 @@ namespace edgescout::c {
 TimeLimit limit_of(const edgescout_limit* given) {
   if (!given) return {};
   const auto asked = read_struct(given, "limit");
-  constexpr double year_s = 365 * 86400.0;  // above it a deadline may be beyond the clock
   if (!(asked.max_seconds >= 0))
     refuse(EDGESCOUT_BAD_INPUT, "limit.max_seconds", std::to_string(asked.max_seconds),
            "0 or more");
   TimeLimit limit;
-  if (asked.max_seconds > 0 && asked.max_seconds < year_s)
-    limit = TimeLimit::after(asked.max_seconds);
+  if (asked.max_seconds > 0) limit = TimeLimit::after(asked.max_seconds);
   std::shared_ptr<Live<edgescout_canceller>> canceller;
   if (asked.canceller) canceller = live(asked.canceller);
   if (canceller || asked.cancelled)

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <optional>
+#include <string>
 
 #include "host/core/time_limit.h"
 
@@ -26,12 +27,21 @@ class Signals {
   TimeLimit::Clock::time_point next_{};
 };
 
+// Begins now. ValueError: a number of seconds that is none or negative.
+inline TimeLimit limit_after(std::optional<double> max_seconds) {
+  if (!max_seconds) return {};
+  if (!(*max_seconds >= 0))
+    throw pybind11::value_error("max_seconds: found " + std::to_string(*max_seconds) +
+                                ", expected 0 or more");
+  return TimeLimit::after(*max_seconds);
+}
+
 // Calls work(limit) without the lock. The limit is over after `max_seconds`, where given, and where
-// a signal handler raised: then its exception goes on.
+// a signal handler raised: then its exception goes on. ValueError: as limit_after.
 template <typename Work>
 auto without_lock(std::optional<double> max_seconds, const Work& work) {
   Signals signals;
-  TimeLimit limit = max_seconds ? TimeLimit::after(*max_seconds) : TimeLimit{};
+  TimeLimit limit = limit_after(max_seconds);
   bool raised = false;
   limit.cancelled = [&] { return raised = raised || signals.pending(); };
   const auto work_unlocked = [&] {
@@ -46,6 +56,13 @@ auto without_lock(std::optional<double> max_seconds, const Work& work) {
   auto result = work_unlocked();
   if (raised) throw pybind11::error_already_set();
   return result;
+}
+
+// Calls work() without the lock. Ctrl-C is answered after it.
+template <typename Work>
+auto without_lock(const Work& work) {
+  const pybind11::gil_scoped_release unlocked;
+  return work();
 }
 
 }  // namespace edgescout::python
