@@ -14,8 +14,8 @@ EXAMPLES = pathlib.Path(__file__).resolve().parents[1]
 scene = EXAMPLES / "scenes/000000"
 
 first = edgescout.load_image(scene / "gray/000000.png")
-camera = edgescout.load_camera(scene / "scene_camera.json")
-camera = edgescout.Camera(first.shape[1], first.shape[0], camera.K)
+height, width = first.shape
+camera = edgescout.load_camera(scene / "scene_camera.json").with_size(width, height)
 templates = edgescout.Templates(
     edgescout.load_mesh(EXAMPLES / "parts/obj_000001.ply", unit="mm"),
     edgescout.TemplateOptions(distance_min=0.32, distance_max=0.36))

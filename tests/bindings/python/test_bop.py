@@ -44,6 +44,8 @@ def test_results_are_those_that_the_program_judges(scene, folder, found, program
 
 
 def test_says_what_is_wrong(tmp_path):
+    with pytest.raises(edgescout.InputError, match="no_such: folder: found none"):
+        edgescout.bop_cameras(tmp_path / "no_such")
     with pytest.raises(edgescout.InputError, match="scene_camera"):
         edgescout.load_bop_scene(tmp_path)
     with pytest.raises(ValueError, match="camera_from_object: found .*expected shape"):

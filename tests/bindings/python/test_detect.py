@@ -45,6 +45,11 @@ def test_takes_arrays_of_any_layout(scene, found):
     (np.zeros((480, 640, 5), np.uint8), "(480, 640, 5)"),
     (np.zeros((240, 640), np.uint8), "640x240 px, expected the camera's 640x480"),
     (np.zeros((0, 0), np.uint8), "expected pixels"),
+    (np.zeros((8, 8), np.uint8), "found 8x8, expected at least 16x16 px"),
+    (np.broadcast_to(np.uint8(0), (2**17, 2**17)), "at most 2^28 pixels"),
+    (None, "image: found NoneType, expected an array of numbers"),
+    ([[1, 2], [3]], "image: found list, expected an array of numbers"),
+    ([[0] * 640] * 480, "image: found int64 of shape (480, 640)"),
 ])
 def test_refuses_what_is_no_image(scene, image, message):
     with pytest.raises(ValueError) as error:
@@ -83,6 +88,38 @@ def test_other_threads_run_meanwhile(scene):
         counted += 1
     thread.join()
     assert counted > 10
+
+
+@pytest.mark.parametrize("templates, message", [
+    (None, "templates: found NoneType, expected Templates or a sequence of them"),
+    ("part", "templates: found str in them"),
+    ([3], "templates: found int in them"),
+    ([], "templates: found none, expected at least one"),
+])
+def test_refuses_what_are_no_templates(scene, templates, message):
+    with pytest.raises(ValueError) as error:
+        edgescout.detect(scene.image, scene.camera, templates)
+    assert message in str(error.value)
+
+
+def test_jointly_takes_a_camera_an_image(scene, found):
+    """The second camera has half the size: its image is the first one, resized."""
+    half = scene.camera.scaled(0.5)
+    small = scene.image.reshape(240, 2, 320, 2).mean((1, 3)).round().astype(np.uint8)
+    poses = [np.eye(4)] * 2
+    options = edgescout.DetectOptions(coarse_poses_joint=600, medium_poses_joint=100, candidates=20)
+    both = edgescout.detect_jointly([scene.image, small], [scene.camera, half], poses,
+                                    scene.templates, options, backend=scene.backend)
+    expected = found[0].world_from_object
+    assert np.linalg.norm(both[0].world_from_object[:3, 3] - expected[:3, 3]) < 0.003
+    (refined,) = edgescout.register_jointly([scene.image, small], (scene.camera, half), poses,
+                                            scene.templates, [expected], backend=scene.backend)
+    assert np.linalg.norm(refined.world_from_object[:3, 3] - expected[:3, 3]) < 0.003
+    for cameras, message in (([scene.camera], "camera: found 1 cameras, expected one for all or"),
+                             ([half, None], "camera: found NoneType in them"),
+                             (None, "camera: found NoneType")):
+        with pytest.raises(ValueError, match=message):
+            edgescout.detect_jointly([scene.image] * 2, cameras, poses, scene.templates)
 
 
 def test_jointly_needs_a_pose_an_image(scene):

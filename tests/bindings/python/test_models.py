@@ -18,6 +18,8 @@ def test_mesh_from_arrays_equals_the_file(scene):
     (np.zeros((4, 2)), [[0, 1, 2]], "vertices_m: found float64 of shape (4, 2)"),
     (np.eye(3), [[0, 1, 7]], "found vertex index 7"),
     (np.eye(3), [[0, 1, 2**40]], "an index of a vertex"),
+    (np.eye(3), [[0.5, 1, 2]], "triangles: found 0.5, expected an index of a vertex"),
+    (np.eye(3), [[np.nan, 1, 2]], "triangles: found nan"),
     (["a"], [[0, 1, 2]], "vertices_m"),
     (np.full((3, 3), np.nan), [[0, 1, 2]], "finite"),
 ])
@@ -74,6 +76,60 @@ def test_camera_is_what_was_given():
         edgescout.Camera(640, 480, np.zeros((3, 3)))
     with pytest.raises(ValueError, match="at most 14"):
         edgescout.Camera(640, 480, matrix, [0.0] * 15)
+    of_opencv = edgescout.Camera(640, 480, matrix, np.array([[0.1, 0.01, 0, 0, 0]]))
+    assert of_opencv == camera == edgescout.Camera(640, 480, matrix, camera.distortion)
+
+
+def test_camera_keeps_skew():
+    matrix = np.array([[700.0, 5, 320], [0, 710, 240], [0, 0, 1]])
+    camera = edgescout.Camera(640, 480, matrix)
+    np.testing.assert_array_equal(camera.K, matrix)
+    np.testing.assert_array_equal(edgescout.Camera(640, 480, camera.K).K, matrix)
+    assert camera != edgescout.Camera(640, 480, matrix * (matrix != 5))
+
+
+MATRIX = np.array([[700.0, 5, 320], [0, 710, 240], [0, 0, 1]])
+
+
+@pytest.mark.parametrize("matrix, message", [
+    (MATRIX.T, "K: found [[700.0, 0.0, 0.0], [5.0"),
+    (2 * MATRIX, "expected fx skew cx, 0 fy cy, 0 0 1"),
+    ("x", "K: found str, expected an array of numbers"),
+    ([[1, 2], [3]], "K: found list, expected an array of numbers"),
+    (object(), "K: found object, expected an array of numbers"),
+    (None, "expected shape (3, 3)"),
+    (np.full((3, 3), np.nan), "K: found"),
+])
+def test_refuses_what_is_no_matrix_of_a_camera(matrix, message):
+    with pytest.raises(ValueError) as error:
+        edgescout.Camera(640, 480, matrix)
+    assert message in str(error.value)
+
+
+@pytest.mark.parametrize("factor", [-1, 0, 1e-9, 1e300, float("nan"), float("inf")])
+def test_refuses_a_scale_that_leaves_no_image(factor):
+    with pytest.raises(ValueError):
+        edgescout.Camera(640, 480, MATRIX).scaled(factor)
+
+
+def test_a_camera_without_a_size_is_given_one(scene):
+    """Of BOP, whose files have none; the lens and the skew stay."""
+    camera = edgescout.load_camera(scene.file.parents[1] / "scene_camera.json")
+    assert (camera.width, camera.height) == (0, 0)
+    sized = camera.with_size(640, 480)
+    assert sized == scene.camera == sized.with_size(640, 480)
+    skewed = edgescout.Camera(640, 480, MATRIX, [0.1])
+    assert skewed.with_size(640, 480) == skewed
+    with pytest.raises(ValueError, match="size: found 320x240, expected the camera's 640x480"):
+        sized.with_size(320, 240)
+    with pytest.raises(ValueError):
+        camera.with_size(-640, 480)
+
+
+def test_undistort_names_both_sizes():
+    camera = edgescout.Camera(640, 480, MATRIX, [0.1])
+    with pytest.raises(ValueError, match="image: found 64x48 px, expected the camera's 640x480"):
+        edgescout.undistort(np.zeros((48, 64), np.uint8), camera)
 
 
 def test_deep_images_become_what_files_of_them_become(scene):
@@ -86,5 +142,3 @@ def test_deep_images_become_what_files_of_them_become(scene):
     np.testing.assert_array_equal(
         edgescout.to_grey(real[:, ::-1], edgescout.ImageOptions(image_scaling="full")),
         scene.image[:, ::-1])
-    with pytest.raises(ValueError, match="uint16 of shape"):
-        edgescout.to_grey(np.zeros((20, 20, 3), np.uint16))

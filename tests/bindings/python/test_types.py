@@ -16,6 +16,10 @@ import edgescout
 
 camera = edgescout.Camera(640, 480, np.eye(3))
 templates = edgescout.Templates(edgescout.load_mesh("part.stl", unit="mm"), camera=camera)
+camera = edgescout.Camera(640, 480, camera.K, camera.distortion, camera.lens).with_size(640, 480)
+state: int = int(edgescout.TrackState.LOST)
+lens = edgescout.LensModel.__members__["FISHEYE"]
+both = edgescout.detect_jointly([np.zeros((480, 640), np.uint8)], [camera], [np.eye(4)], templates)
 found = edgescout.detect(edgescout.load_image("image.png"), camera, templates, max_seconds=1)
 for detection in found:
     position_m: float = float(detection.world_from_object[0, 3])

@@ -13,6 +13,7 @@ from ._core import (
     BopScene as BopScene,
     BopTruth as BopTruth,
     Camera as Camera,
+    Cancelled as Cancelled,
     Detection as Detection,
     Detections as Detections,
     DepthOptions as DepthOptions,

@@ -2,7 +2,7 @@
 
 import os
 import pathlib
-from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, ClassVar, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +12,7 @@ __version__: str
 Path = Union[str, "os.PathLike[str]"]
 Image = npt.NDArray[np.uint8]
 AnyImage = Union[Image, npt.NDArray[np.uint16], npt.NDArray[np.float32]]
-Depth = Union[npt.NDArray[np.uint16], npt.NDArray[np.float32]]
+Depth = Union[npt.NDArray[np.uint16], npt.NDArray[np.uint32], npt.NDArray[np.float32]]
 Matrix = npt.NDArray[np.float64]
 OptionValue = Union[bool, int, float, str, Tuple[float, float], Sequence[float]]
 
@@ -27,7 +27,10 @@ class LensModel:
     FISHEYE: LensModel
     THIN_PRISM_FISHEYE: LensModel
     FIELD_OF_VIEW: LensModel
+    __members__: ClassVar[Dict[str, LensModel]]
     def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    def __index__(self) -> int: ...
     @property
     def name(self) -> str: ...
     @property
@@ -39,7 +42,7 @@ class Camera:
         width: int,
         height: int,
         K: npt.ArrayLike,
-        distortion: Sequence[float] = ...,
+        distortion: npt.ArrayLike = ...,
         lens: LensModel = ...,
     ) -> None: ...
     @property
@@ -54,6 +57,7 @@ class Camera:
     def lens(self) -> LensModel: ...
     def undistorted(self) -> Camera: ...
     def scaled(self, factor: float) -> Camera: ...
+    def with_size(self, width: int, height: int) -> Camera: ...
 
 def load_camera(file: Path, name: str = ...) -> Camera: ...
 def load_image(file: Path, options: Optional[ImageOptions] = ...) -> Image: ...
@@ -286,7 +290,7 @@ def detect(
 ) -> Detections: ...
 def detect_jointly(
     images: Sequence[AnyImage],
-    camera: Camera,
+    camera: Union[Camera, Sequence[Camera]],
     camera_from_world: npt.ArrayLike,
     templates: _Templates,
     options: Optional[DetectOptions] = ...,
@@ -310,7 +314,7 @@ def register(
 ) -> Detections: ...
 def register_jointly(
     images: Sequence[AnyImage],
-    camera: Camera,
+    camera: Union[Camera, Sequence[Camera]],
     camera_from_world: npt.ArrayLike,
     templates: _Templates,
     world_from_object: npt.ArrayLike,
@@ -387,7 +391,10 @@ class TrackState:
     TRACKED: TrackState
     DOUBTFUL: TrackState
     LOST: TrackState
+    __members__: ClassVar[Dict[str, TrackState]]
     def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    def __index__(self) -> int: ...
     @property
     def name(self) -> str: ...
     @property

@@ -1,4 +1,4 @@
-// numpy arrays in and out: grey images, poses as 4x4 matrices, vertices.
+// numpy arrays in and out: poses as 4x4 matrices, vertices; images out (in: array_pixels.h).
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -9,9 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "host/core/depth_image.h"
 #include "host/core/types.h"
-#include "host/io/depth_options.h"
 #include "host/io/image.h"
 
 namespace edgescout::python {
@@ -25,14 +23,19 @@ std::string found(const py::array& array);
 [[noreturn]] void refuse(const std::string& name, const std::string& found,
                          const std::string& expected);
 
-// A grey image of an array of (height, width), or of (height, width, 3 or 4) in the order red,
-// green, blue; or of 16 bit or float32, (height, width), scaled to 8 bit by the options. Any
-// strides. ValueError: another type or shape.
-Image image_of(const py::array& array, const ImageOptions& options = {});
+// "Mesh"
+std::string type_name(const py::handle& value);
 
-// A depth image of an array of (height, width), uint16 or float32. Any strides. ValueError: another
-// type or shape; InputError: depth_image (io/depth_file.h) refuses the values.
-DepthImage depth_of(const py::array& array, const DepthOptions& options);
+// refuse() of what numpy makes no array of.
+[[noreturn]] void refuse_no_array(const py::handle& value, const std::string& name);
+
+// What numpy makes an array of. ValueError naming `name`: anything else.
+template <typename Array>
+Array array_like(const py::handle& value, const std::string& name) {
+  Array array = Array::ensure(value);
+  if (!array) refuse_no_array(value, name);
+  return array;
+}
 
 // (height, width) and (height, width, 3); they own their memory.
 py::array_t<std::uint8_t> array_of(const Image& image);
@@ -48,7 +51,7 @@ py::array_t<double> matrices_of(const std::vector<Se3>& poses);
 py::array_t<double> array_of(const Matrix6d& matrix);
 py::array_t<double> array_of(const Eigen::Vector3d& vector);
 
-// Of shape (n, 3). ValueError: another shape, values that are no numbers.
+// Of shape (n, 3). ValueError: another shape, values that are no numbers, or no whole ones.
 std::vector<Eigen::Vector3d> points_of(const py::handle& points, const std::string& name);
 std::vector<std::array<int, 3>> triangles_of(const py::handle& triangles, const std::string& name);
 

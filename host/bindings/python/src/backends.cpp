@@ -28,16 +28,19 @@ void add_backends(py::module_& module) {
            py::arg("device") = "auto", py::kw_only(), py::arg("threads") = 0,
            "device: auto (a graphics card, else the CPU), cpu, cpu-reference, vulkan or "
            "vulkan:INDEX. threads: of the CPU, 0 for one a core.")
-      .def_property_readonly("name", [](const SharedBackend& b) { return b.info().name(); })
-      .def_property_readonly("is_hardware",
-                             [](const SharedBackend& b) { return b.info().is_hardware(); })
+      .def_property_readonly(
+          "name", [](const SharedBackend& b) { return b.info().name(); },
+          "The device and what it is made of.")
+      .def_property_readonly(
+          "is_hardware", [](const SharedBackend& b) { return b.info().is_hardware(); },
+          "Whether it is a graphics card.")
       .def("__repr__", [](const SharedBackend& b) { return "Backend(" + b.info().name() + ")"; });
   py::class_<DeviceInfo>(module, "Device", "A Vulkan device.")
-      .def_readonly("index", &DeviceInfo::index)
-      .def_readonly("name", &DeviceInfo::name)
-      .def_readonly("driver", &DeviceInfo::driver)
-      .def_readonly("is_hardware", &DeviceInfo::hardware)
-      .def_readonly("memory_bytes", &DeviceInfo::memory_bytes)
+      .def_readonly("index", &DeviceInfo::index, "Backend(\"vulkan:INDEX\") is on it.")
+      .def_readonly("name", &DeviceInfo::name, "Of the device.")
+      .def_readonly("driver", &DeviceInfo::driver, "Its Vulkan driver.")
+      .def_readonly("is_hardware", &DeviceInfo::hardware, "False: the driver computes on the CPU.")
+      .def_readonly("memory_bytes", &DeviceInfo::memory_bytes, "Of its own.")
       .def("__repr__", [](const DeviceInfo& d) {
         return "Device(vulkan:" + std::to_string(d.index) + " " + d.name + ")";
       });

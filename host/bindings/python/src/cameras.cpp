@@ -6,27 +6,65 @@ namespace edgescout::python {
 
 namespace {
 
-Camera make_camera(int width, int height, std::array<double, 4> focal_and_centre_px,
-                   const std::vector<double>& distortion, LensModel lens) {
-  Camera camera{width,
-                height,
-                focal_and_centre_px[0],
-                focal_and_centre_px[1],
-                focal_and_centre_px[2],
-                focal_and_centre_px[3]};
-  if (distortion.size() > camera.distortion.size())
-    refuse("distortion", std::to_string(distortion.size()) + " coefficients", "at most 14");
-  std::ranges::copy(distortion, camera.distortion.begin());
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+// Numbers in one row or column, as OpenCV's (1, n).
+std::vector<double> coefficients_of(const py::handle& distortion) {
+  const auto given = array_like<Doubles>(distortion, "distortion");
+  const py::ssize_t most = LensCoefficients{}.size();
+  const bool is_list =
+      given.ndim() == 1 || (given.ndim() == 2 && (given.shape(0) == 1 || given.shape(1) == 1));
+  if (!is_list || given.size() > most)
+    refuse("distortion", found(given), "a list of at most " + std::to_string(most) + " numbers");
+  return {given.data(), given.data() + given.size()};
+}
+
+// fx skew cx, 0 fy cy, 0 0 1
+void set_intrinsics(Camera& camera, const py::handle& matrix) {
+  const auto k = array_like<Doubles>(matrix, "K");
+  if (k.ndim() != 2 || k.shape(0) != 3 || k.shape(1) != 3) refuse("K", found(k), "shape (3, 3)");
+  if (k.at(1, 0) != 0 || k.at(2, 0) != 0 || k.at(2, 1) != 0 || k.at(2, 2) != 1)
+    refuse("K", py::str(k.attr("tolist")()), "fx skew cx, 0 fy cy, 0 0 1");
+  camera.fx = k.at(0, 0);
+  camera.skew = k.at(0, 1);
+  camera.cx = k.at(0, 2);
+  camera.fy = k.at(1, 1);
+  camera.cy = k.at(1, 2);
+}
+
+Camera make_camera(int width, int height, const py::object& k, const py::object& distortion,
+                   LensModel lens) {
+  Camera camera{width, height};
+  set_intrinsics(camera, k);
+  std::ranges::copy(coefficients_of(distortion), camera.distortion.begin());
   camera.lens = lens;
   validate(camera, "camera");
   return camera;
 }
 
-std::array<double, 4> intrinsics_of(const py::handle& matrix) {
-  const auto k = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(matrix);
-  if (!k) throw py::error_already_set();
-  if (k.ndim() != 2 || k.shape(0) != 3 || k.shape(1) != 3) refuse("K", found(k), "shape (3, 3)");
-  return {k.at(0, 0), k.at(1, 1), k.at(0, 2), k.at(1, 2)};
+std::string size_text(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+Camera with_size(const Camera& camera, int width, int height) {
+  const bool has_size = camera.width != 0 || camera.height != 0;
+  if (has_size && (camera.width != width || camera.height != height))
+    refuse("size", size_text(width, height),
+           "the camera's " + size_text(camera.width, camera.height) + "; scaled() changes it");
+  Camera sized = camera;
+  sized.width = width;
+  sized.height = height;
+  validate(sized, "camera");
+  return sized;
+}
+
+Camera resized(const Camera& camera, double factor) {
+  constexpr double most = 1000;
+  if (!(factor > 0 && factor <= most))
+    refuse("factor", py::str(py::cast(factor)), "a number above 0, at most 1000");
+  const Camera result = scaled(camera, factor);
+  if (camera.width > 0) validate(result, "camera");
+  return result;
 }
 
 py::array_t<double> intrinsic_matrix(const Camera& c) {
@@ -48,23 +86,22 @@ void add_cameras(py::module_& module) {
   py::class_<Camera>(module, "Camera",
                      "A pinhole camera with a lens. Its frame has z forward, x right, y down; "
                      "pixel centres are at integers. Lengths in px.")
-      .def(py::init([](int width, int height, const py::object& k,
-                       const std::vector<double>& distortion, LensModel lens) {
-             return make_camera(width, height, intrinsics_of(k), distortion, lens);
-           }),
-           py::arg("width"), py::arg("height"), py::arg("K"),
-           py::arg("distortion") = std::vector<double>{}, py::arg("lens") = LensModel::BrownConrady,
-           "K: (3, 3), px. distortion: at most 14 coefficients in the order of `lens`.")
-      .def_readonly("width", &Camera::width)
-      .def_readonly("height", &Camera::height)
-      .def_property_readonly("K", &intrinsic_matrix, "(3, 3) float64, px.")
+      .def(py::init(&make_camera), py::arg("width"), py::arg("height"), py::arg("K"),
+           py::arg("distortion") = py::tuple(), py::arg("lens") = LensModel::BrownConrady,
+           "K: (3, 3), px: fx skew cx, 0 fy cy, 0 0 1. distortion: at most 14 coefficients in the "
+           "order of `lens`.")
+      .def_readonly("width", &Camera::width, "px; 0: that of the image.")
+      .def_readonly("height", &Camera::height, "px; 0: that of the image.")
+      .def_property_readonly("K", &intrinsic_matrix, "(3, 3) float64, px, skew included.")
       .def_property_readonly(
           "distortion",
           [](const Camera& c) { return py::array_t<double>(14, c.distortion.data()); },
           "(14,) float64, in the order of `lens`.")
-      .def_readonly("lens", &Camera::lens)
+      .def_readonly("lens", &Camera::lens, "The model that the coefficients of distortion are of.")
       .def("undistorted", &undistorted, "The pinhole camera of the undistorted image.")
-      .def("scaled", &scaled, py::arg("factor"), "The camera of a resized image.")
+      .def("scaled", &resized, py::arg("factor"), "The camera of a resized image.")
+      .def("with_size", &with_size, py::arg("width"), py::arg("height"),
+           "The camera with the size of its images, for one that a file without a size gave.")
       .def("__eq__", &same_camera)
       .def("__repr__", [](const Camera& c) {
         return py::str("Camera({}x{}, fx={:.2f}, fy={:.2f}, cx={:.2f}, cy={:.2f})")
@@ -73,7 +110,7 @@ void add_cameras(py::module_& module) {
   module.def("load_camera", &load_camera, py::arg("file"), py::arg("name") = "",
              "The camera of a calibration file of ROS, OpenCV, Kalibr, BOP and some fifteen others "
              "(docs/cameras.md). `name` chooses one of several. Its size may be (0, 0): then it "
-             "takes that of the image.");
+             "takes that of the image. Scout and Tracker need one: with_size().");
 }
 
 }  // namespace edgescout::python

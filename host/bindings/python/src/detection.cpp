@@ -24,7 +24,7 @@ std::vector<ObjectView> prepared(std::span<const TakenImage> images, Backend& ba
   return views;
 }
 
-FoundObjects detect(const py::array& image, const Camera& camera, const py::object& templates,
+FoundObjects detect(const py::object& image, const Camera& camera, const py::object& templates,
                     const PipelineOptions* options, const py::object& depth,
                     const DepthOptions* depth_options, const BackendPointer& backend,
                     std::optional<double> max_seconds) {
@@ -40,7 +40,7 @@ FoundObjects detect(const py::array& image, const Camera& camera, const py::obje
   return named(on_backend(backend, max_seconds, work), sets);
 }
 
-FoundObjects detect_in_all(const std::vector<py::array>& images, const Camera& camera,
+FoundObjects detect_in_all(const py::object& images, const py::object& camera,
                            const py::object& camera_from_world, const py::object& templates,
                            const PipelineOptions* options, const py::object& depth,
                            const DepthOptions* depth_options, const BackendPointer& backend,
@@ -87,7 +87,7 @@ FoundObjects register_in(const std::vector<TakenImage>& taken, std::span<const T
   return named(on_backend(backend, max_seconds, work), sets);
 }
 
-FoundObjects register_in_one(const py::array& image, const Camera& camera,
+FoundObjects register_in_one(const py::object& image, const Camera& camera,
                              const py::object& templates, const py::object& camera_from_object,
                              const std::optional<std::vector<int>>& objects,
                              const py::object& depth, const DepthOptions* depth_options,
@@ -101,7 +101,7 @@ FoundObjects register_in_one(const py::array& image, const Camera& camera,
                      backend, max_seconds);
 }
 
-FoundObjects register_in_all(const std::vector<py::array>& images, const Camera& camera,
+FoundObjects register_in_all(const py::object& images, const py::object& camera,
                              const py::object& camera_from_world, const py::object& templates,
                              const py::object& world_from_object,
                              const std::optional<std::vector<int>>& objects,
@@ -116,7 +116,7 @@ FoundObjects register_in_all(const std::vector<py::array>& images, const Camera&
                      backend, max_seconds);
 }
 
-py::array_t<std::uint8_t> overlay(const py::array& image, const Camera& camera,
+py::array_t<std::uint8_t> overlay(const py::object& image, const Camera& camera,
                                   const std::vector<FoundObject>& found,
                                   const py::object& templates, const py::object& camera_from_world,
                                   const BackendPointer& backend) {
@@ -147,29 +147,36 @@ void add_detection(py::module_& module) {
              py::arg("options") = nullptr, py::kw_only(), py::arg("depth") = py::none(),
              py::arg("depth_options") = nullptr, py::arg("backend") = nullptr,
              py::arg("max_seconds") = std::nullopt,
-             "Finds objects in one image.\n\nimage: uint8, (height, width) or (height, width, 3) "
-             "in the order red, green, blue. templates: one or several. The world of the poses is "
-             "the camera frame. Ctrl-C ends it. depth: of the same camera and size, "
-             "(height, width), uint16 or float32, or None; depth_options say its unit and noise.");
-  module.def("detect_jointly", &detect_in_all, py::arg("images"), py::arg("camera"),
-             py::arg("camera_from_world"), py::arg("templates"), py::arg("options") = nullptr,
-             py::kw_only(), py::arg("depth") = py::none(), py::arg("depth_options") = nullptr,
-             py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
-             "Finds objects in several images of one static scene.\n\ncamera_from_world: "
-             "(n, 4, 4), metres, one an image. depth: of each image, or None.");
+             "Finds objects in one image.\n\nimage: uint8 or uint16, (height, width) or "
+             "(height, width, 3 or 4) in the order red, green, blue; or float32, (height, width); "
+             "deeper values are scaled to 8 bit (to_grey()). templates: one or several. The world "
+             "of the poses is the camera frame. Ctrl-C ends it. max_seconds: then it ends with the "
+             "poses found so far, and is_complete is False. depth: of the same camera and size, "
+             "(height, width), uint16, uint32 or float32, or None; depth_options say its unit and "
+             "noise.");
+  module.def(
+      "detect_jointly", &detect_in_all, py::arg("images"), py::arg("camera"),
+      py::arg("camera_from_world"), py::arg("templates"), py::arg("options") = nullptr,
+      py::kw_only(), py::arg("depth") = py::none(), py::arg("depth_options") = nullptr,
+      py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
+      "Finds objects in several images of one static scene.\n\nimages: each as that of "
+      "detect(). camera: one for all, or one an image. camera_from_world: (n, 4, 4), metres, "
+      "one an image. depth: of each image, or None. max_seconds: as that of detect().");
   module.def("register", &register_in_one, py::arg("image"), py::arg("camera"),
              py::arg("templates"), py::arg("camera_from_object"), py::arg("objects") = std::nullopt,
              py::kw_only(), py::arg("depth") = py::none(), py::arg("depth_options") = nullptr,
              py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
              "Refines given poses in one image.\n\ncamera_from_object: (n, 4, 4), metres, within "
              "some 0.3 rad and a tenth of the object's size. objects: of each, the index of its "
-             "templates; needed where there are several. The result is in the order of the poses.");
+             "templates; needed where there are several. The result is in the order of the poses. "
+             "image, depth, max_seconds: as those of detect().");
   module.def("register_jointly", &register_in_all, py::arg("images"), py::arg("camera"),
              py::arg("camera_from_world"), py::arg("templates"), py::arg("world_from_object"),
              py::arg("objects") = std::nullopt, py::kw_only(), py::arg("depth") = py::none(),
              py::arg("depth_options") = nullptr, py::arg("backend") = nullptr,
              py::arg("max_seconds") = std::nullopt,
-             "Refines given poses over several images of one static scene.");
+             "Refines given poses over several images of one static scene.\n\nArguments are those "
+             "of detect_jointly() and register(); the poses are world_from_object.");
   module.def("overlay", &overlay, py::arg("image"), py::arg("camera"), py::arg("detections"),
              py::arg("templates"), py::kw_only(), py::arg("camera_from_world") = py::none(),
              py::arg("backend") = nullptr,

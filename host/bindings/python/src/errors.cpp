@@ -16,7 +16,7 @@ void add_errors(py::module_& module) {
   py::register_exception<LogicError>(module, "LogicError", PyExc_RuntimeError).doc() =
       "A call that breaks its own rules, such as an index that does not exist.";
   py::register_exception<Cancelled>(module, "Cancelled", PyExc_RuntimeError).doc() =
-      "The scout's `cancelled` returned True.";
+      "A call of the scout was cancelled. Ctrl-C raises KeyboardInterrupt in its place.";
 }
 
 }  // namespace edgescout::python

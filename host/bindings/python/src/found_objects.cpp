@@ -1,5 +1,7 @@
 #include "host/bindings/python/src/found_objects.h"
 
+#include "host/bindings/python/src/array_pixels.h"
+#include "host/bindings/python/src/interrupt.h"
 #include "host/core/image_size.h"
 #include "host/io/depth_registration.h"
 
@@ -11,11 +13,18 @@ GivenSets::GivenSets(const py::object& templates) {
     one_ = py::cast<Pointer>(templates);
     return;
   }
-  for (const Pointer& set : py::cast<std::vector<Pointer>>(templates)) several_.push_back(*set);
+  if (!py::isinstance<py::sequence>(templates))
+    refuse("templates", type_name(templates), "Templates or a sequence of them");
+  for (const py::handle& each : py::reinterpret_borrow<py::sequence>(templates)) {
+    if (!py::isinstance<TemplateSet>(each))
+      refuse("templates", type_name(each) + " in them", "Templates or a sequence of them");
+    several_.push_back(*py::cast<Pointer>(each));
+  }
   if (several_.empty()) refuse("templates", "none", "at least one");
 }
 
-TakenImage taken_image(const py::array& image, const Camera& camera, const Se3& camera_from_world) {
+TakenImage taken_image(const py::handle& image, const Camera& camera,
+                       const Se3& camera_from_world) {
   TakenImage shot{image_of(image), camera, camera_from_world, {}, {}};
   if (camera.width == 0 && camera.height == 0) {
     shot.camera.width = shot.image.width;
@@ -31,15 +40,15 @@ TakenImage taken_image(const py::array& image, const Camera& camera, const Se3& 
 void give_depth(TakenImage& taken, const GivenDepth& depth) {
   if (depth.values.is_none()) return;
   const DepthOptions options = depth.options ? *depth.options : DepthOptions{};
-  const auto array = py::array::ensure(depth.values);
-  if (!array) throw py::error_already_set();
-  taken.depth = depth_of(array, options);
+  taken.depth = depth_of(depth.values, options);
   taken.depth_noise = options.noise;
   require_size_of(taken.camera, *taken.depth, "depth", "image");
 }
 
 void give_depth(std::span<TakenImage> taken, const GivenDepth& depth) {
   if (depth.values.is_none()) return;
+  if (!py::isinstance<py::sequence>(depth.values))
+    refuse("depth", type_name(depth.values), "a sequence of depth images");
   const auto each = py::cast<std::vector<py::object>>(depth.values);
   if (each.size() != taken.size())
     refuse("depth", std::to_string(each.size()) + " depth images",
@@ -49,19 +58,47 @@ void give_depth(std::span<TakenImage> taken, const GivenDepth& depth) {
 
 std::shared_ptr<const MeasuredDepth> measured_depth(const TakenImage& taken) {
   if (!taken.depth) return nullptr;
-  return std::make_shared<const MeasuredDepth>(
-      MeasuredDepth{undistort_depth(*taken.depth, taken.camera), taken.depth_noise});
+  return without_lock([&] {
+    return std::make_shared<const MeasuredDepth>(
+        MeasuredDepth{undistort_depth(*taken.depth, taken.camera), taken.depth_noise});
+  });
 }
 
-std::vector<TakenImage> taken_images(const std::vector<py::array>& images, const Camera& camera,
+namespace {
+
+// One for all images, or one an image.
+std::vector<Camera> cameras_of(const py::object& given, std::size_t images) {
+  if (py::isinstance<Camera>(given))
+    return std::vector<Camera>(images, py::cast<const Camera&>(given));
+  if (!py::isinstance<py::sequence>(given))
+    refuse("camera", type_name(given), "a Camera or a sequence of them");
+  std::vector<Camera> cameras;
+  for (const py::handle& each : py::reinterpret_borrow<py::sequence>(given)) {
+    if (!py::isinstance<Camera>(each))
+      refuse("camera", type_name(each) + " in them", "a Camera or a sequence of them");
+    cameras.push_back(py::cast<const Camera&>(each));
+  }
+  if (cameras.size() != images)
+    refuse("camera", std::to_string(cameras.size()) + " cameras",
+           "one for all or one an image of " + std::to_string(images));
+  return cameras;
+}
+
+}  // namespace
+
+std::vector<TakenImage> taken_images(const py::object& images, const py::object& camera,
                                      const py::object& camera_from_world) {
+  if (!py::isinstance<py::sequence>(images))
+    refuse("images", type_name(images), "a sequence of images");
+  const auto given = py::cast<std::vector<py::object>>(images);
   const std::vector<Se3> poses = poses_of(camera_from_world, "camera_from_world");
-  if (poses.size() != images.size() || poses.empty())
+  if (poses.size() != given.size() || poses.empty())
     refuse("camera_from_world", std::to_string(poses.size()) + " poses",
-           "one an image of " + std::to_string(images.size()));
+           "one an image of " + std::to_string(given.size()));
+  const std::vector<Camera> cameras = cameras_of(camera, given.size());
   std::vector<TakenImage> taken;
-  for (std::size_t i = 0; i < images.size(); ++i)
-    taken.push_back(taken_image(images[i], camera, poses[i]));
+  for (std::size_t i = 0; i < given.size(); ++i)
+    taken.push_back(taken_image(given[i], cameras[i], poses[i]));
   return taken;
 }
 
@@ -78,11 +115,12 @@ void add_found_objects(py::module_& module) {
   py::class_<AlternativePose>(module, "Alternative", "Another pose that explains the same edges.")
       .def_property_readonly(
           "world_from_object",
-          [](const AlternativePose& a) { return matrix_of(a.world_from_object); })
-      .def_readonly("probability", &AlternativePose::probability);
+          [](const AlternativePose& a) { return matrix_of(a.world_from_object); },
+          "(4, 4) float64, metres.")
+      .def_readonly("probability", &AlternativePose::probability, "That it is the right one.");
   py::class_<FoundObject>(module, "Detection", "One object that was found.")
       .def_readonly("object", &FoundObject::object, "Index into the templates that were given.")
-      .def_readonly("object_id", &FoundObject::object_id)
+      .def_readonly("object_id", &FoundObject::object_id, "That of its templates.")
       .def_readonly("name", &FoundObject::name, "Of its mesh.")
       .def_property_readonly(
           "world_from_object", [](const FoundObject& d) { return matrix_of(d.world_from_object); },
@@ -91,12 +129,19 @@ void add_found_objects(py::module_& module) {
           "covariance", [](const FoundObject& d) { return array_of(d.covariance); },
           "(6, 6) float64 of [translation m, rotation rad] in the world.")
       .def_readonly("probability", &FoundObject::probability, "That the pose is right, [0, 1].")
-      .def_readonly("psi", &FoundObject::psi)
-      .def_readonly("psi_z_score", &FoundObject::psi_z_score)
-      .def_readonly("cost_px", &FoundObject::cost_px)
-      .def_readonly("matched_fraction", &FoundObject::matched_fraction)
-      .def_readonly("unexplained_grey", &FoundObject::unexplained_grey)
-      .def_readonly("convergence", &FoundObject::convergence)
+      .def_readonly(
+          "psi", &FoundObject::psi,
+          "Mean cosine between image gradient and edge normals, [0, 1] (Eq. 10 of the paper).")
+      .def_readonly("psi_z_score", &FoundObject::psi_z_score,
+                    "psi above what chance gives, in standard errors.")
+      .def_readonly("cost_px", &FoundObject::cost_px,
+                    "Mean distance of the visible edge points from the image's edges.")
+      .def_readonly("matched_fraction", &FoundObject::matched_fraction,
+                    "Of the visible edge points, those with an edge of the image near.")
+      .def_readonly(
+          "unexplained_grey", &FoundObject::unexplained_grey,
+          "Share of the contrast inside the outline that the surface does not explain, [0, 1].")
+      .def_readonly("convergence", &FoundObject::convergence, "Why the registration stopped.")
       .def_readonly("alternatives", &FoundObject::alternatives, "Most probable first.")
       .def("__repr__", [](const FoundObject& d) {
         const Eigen::Vector3d& t = d.world_from_object.translation_m;

@@ -6,6 +6,8 @@
 #include <span>
 
 #include "host/bindings/python/src/arrays.h"
+#include "host/core/depth_image.h"
+#include "host/io/depth_options.h"
 #include "host/pipeline.h"
 #include "host/register/measured_depth.h"
 
@@ -39,8 +41,8 @@ struct TakenImage {
   DepthNoise depth_noise;
 };
 
-// A camera without a size takes the image's. ValueError: they differ.
-TakenImage taken_image(const py::array& image, const Camera& camera, const Se3& camera_from_world);
+// A camera without a size takes the image's. ValueError: they differ, or image_of refuses it.
+TakenImage taken_image(const py::handle& image, const Camera& camera, const Se3& camera_from_world);
 
 // ValueError: values that are no depth image, another size than the image's.
 void give_depth(TakenImage& taken, const GivenDepth& depth);
@@ -50,8 +52,9 @@ void give_depth(std::span<TakenImage> taken, const GivenDepth& depth);
 // Its depth without the lens; null where it has none.
 std::shared_ptr<const MeasuredDepth> measured_depth(const TakenImage& taken);
 
-// ValueError: not one pose an image.
-std::vector<TakenImage> taken_images(const std::vector<py::array>& images, const Camera& camera,
+// Of a sequence of images. One camera took all of them, or each of a sequence took one. ValueError:
+// not one pose an image, not one camera or one an image.
+std::vector<TakenImage> taken_images(const py::object& images, const py::object& camera,
                                      const py::object& camera_from_world);
 
 // A detection with the identity of its object.

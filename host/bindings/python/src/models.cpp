@@ -29,9 +29,10 @@ Symmetries symmetries_of(const py::object& given, const Mesh& mesh) {
   if (given.is_none()) return {};
   if (py::isinstance<py::str>(given)) {
     const auto words = py::cast<std::vector<std::string>>(given.attr("split")());
-    return axis_symmetries(mesh, words);
+    return without_lock([&] { return axis_symmetries(mesh, words); });
   }
-  return symmetries_of_transforms(poses_of(given, "symmetries"));
+  const std::vector<Se3> transforms = poses_of(given, "symmetries");
+  return without_lock([&] { return symmetries_of_transforms(transforms); });
 }
 
 // Thrown where a signal handler raised, whose exception replaces it.
@@ -62,16 +63,19 @@ void add_meshes(py::module_& module) {
   py::class_<Mesh>(module, "Mesh", "A triangle mesh in the object frame, in metres.")
       .def(py::init([](const py::object& vertices_m, const py::object& triangles,
                        const std::string& name) {
-             return make_mesh(name, points_of(vertices_m, "vertices_m"),
-                              python::triangles_of(triangles, "triangles"));
+             auto points = points_of(vertices_m, "vertices_m");
+             auto corners = python::triangles_of(triangles, "triangles");
+             return without_lock(
+                 [&] { return make_mesh(name, std::move(points), std::move(corners)); });
            }),
            py::arg("vertices_m"), py::arg("triangles"), py::arg("name") = "mesh",
            "vertices_m: (n, 3), metres. triangles: (m, 3), counter-clockwise seen from outside. "
            "Defects are repaired as in load_mesh.")
-      .def_readonly("name", &Mesh::name)
+      .def_readonly("name", &Mesh::name, "Of its file, or as given.")
       .def_property_readonly("vertices_m", &vertices_of, "(n, 3) float64, metres; a copy.")
       .def_property_readonly("triangles", &triangles_of, "(m, 3) int32; a copy.")
-      .def_readonly("diameter_m", &Mesh::diameter_m)
+      .def_readonly("diameter_m", &Mesh::diameter_m,
+                    "The largest distance between two of its vertices.")
       .def("__repr__", [](const Mesh& mesh) {
         return py::str("Mesh({}, {} triangles, {:.1f} mm)")
             .format(mesh.name, mesh.triangles.size(), 1e3 * mesh.diameter_m);
@@ -79,7 +83,8 @@ void add_meshes(py::module_& module) {
   module.def(
       "load_mesh",
       [](const std::filesystem::path& file, const std::string& unit) {
-        return load_mesh(file, length_unit(unit));
+        const LengthUnit given = length_unit(unit);
+        return without_lock([&] { return load_mesh(file, given); });
       },
       py::arg("file"), py::arg("unit"),
       "Reads and repairs a mesh. unit: mm, cm, m or in, what one unit of the file is.");
@@ -107,8 +112,9 @@ void add_models(py::module_& module) {
       .def_static(
           "without_views",
           [](const Mesh& mesh, const py::object& symmetries, int object_id) {
-            return std::make_shared<TemplateSet>(
-                without_views({object_id, mesh, symmetries_of(symmetries, mesh)}));
+            const Object object{object_id, mesh, symmetries_of(symmetries, mesh)};
+            return without_lock(
+                [&] { return std::make_shared<TemplateSet>(without_views(object)); });
           },
           py::arg("mesh"), py::kw_only(), py::arg("symmetries") = py::none(),
           py::arg("object_id") = 1,
@@ -117,21 +123,23 @@ void add_models(py::module_& module) {
       .def_static(
           "load",
           [](const std::filesystem::path& file) {
-            return std::make_shared<TemplateSet>(load_templates(file));
+            return without_lock(
+                [&] { return std::make_shared<TemplateSet>(load_templates(file)); });
           },
-          py::arg("file"))
+          py::arg("file"), "Reads what save() or `edgescout model build` wrote.")
       .def(
           "save",
           [](const TemplateSet& set, const std::filesystem::path& file) {
-            save_templates(set, file);
+            without_lock([&] { save_templates(set, file); });
           },
-          py::arg("file"))
-      .def_readonly("object_id", &TemplateSet::object_id)
-      .def_property_readonly("mesh", [](const TemplateSet& set) { return set.model.mesh; })
+          py::arg("file"), "Writes a file that load() reads, whole or not at all.")
+      .def_readonly("object_id", &TemplateSet::object_id, "As given; BOP's obj_id.")
+      .def_property_readonly(
+          "mesh", [](const TemplateSet& set) { return set.model.mesh; }, "Of the object; a copy.")
       .def_property_readonly(
           "symmetries", [](const TemplateSet& set) { return matrices_of(set.symmetries.discrete); },
           "(n, 4, 4) float64; the first is the identity.")
-      .def_readonly("options", &TemplateSet::options)
+      .def_readonly("options", &TemplateSet::options, "With which they were built.")
       .def("__repr__", [](const TemplateSet& set) {
         return py::str("Templates({}, object {}, {:.3f} to {:.3f} m)")
             .format(set.model.mesh.name, set.object_id, set.options.distance_min_m,

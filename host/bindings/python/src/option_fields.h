@@ -64,11 +64,13 @@ void add_options_class(py::module_& module, const char* name, const char* doc,
   };
   py::class_<Options>(module, name, doc)
       .def(py::init([set](const py::kwargs& values) {
-        Options options;
-        for (const auto& [field, value] : values)
-          set(options, py::cast<std::string>(field), py::reinterpret_borrow<py::object>(value));
-        return options;
-      }))
+             Options options;
+             for (const auto& [field, value] : values)
+               set(options, py::cast<std::string>(field),
+                   py::reinterpret_borrow<py::object>(value));
+             return options;
+           }),
+           "The defaults, but for those that are named.")
       .def("__getattr__",
            [fields_of](Options& options, const std::string& field) {
              return field_named(fields_of(options), field).get();
@@ -87,7 +89,8 @@ void add_options_class(py::module_& module, const char* name, const char* doc,
                if (!of_a[i].get().equal(of_b[i].get())) return false;
              return true;
            })
-      .def("copy", [](const Options& options) { return options; })
+      .def(
+          "copy", [](const Options& options) { return options; }, "Options of their own.")
       .def(
           "help",
           [fields_of](Options& options) {

@@ -1,6 +1,7 @@
 #include "host/active/scout.h"
 
 #include "host/active/views.h"
+#include "host/bindings/python/src/array_pixels.h"
 #include "host/bindings/python/src/found_objects.h"
 #include "host/bindings/python/src/parts.h"
 #include "host/bindings/python/src/shared_backend.h"
@@ -54,7 +55,7 @@ class PythonScout {
     return proposal;
   }
 
-  void give(int view, const py::array& image, const py::object& camera_from_world,
+  void give(int view, const py::object& image, const py::object& camera_from_world,
             const py::object& depth, const DepthOptions* depth_options) {
     require_view(view);
     const Se3 pose = camera_from_world.is_none() ? state().views[std::size_t(view)]
