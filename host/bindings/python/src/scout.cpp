@@ -1,5 +1,7 @@
 #include "host/active/scout.h"
 
+#include <mutex>
+
 #include "host/active/views.h"
 #include "host/bindings/python/src/array_pixels.h"
 #include "host/bindings/python/src/found_objects.h"
@@ -22,7 +24,19 @@ struct Instance : FoundObject {
   std::vector<int> supporting_images;
 };
 
-// Keeps what a Scout refers to.
+// What is read of a scout while another thread may be in a call.
+struct ShownScout {
+  std::vector<ModeDetection> detections;
+  double entropy_nats = 0;
+  std::size_t images = 0;
+  ScoutEnd end = ScoutEnd::No;
+};
+
+ShownScout shown_of(const ScoutState& state) {
+  return {state.detections, state.entropy_nats, state.steps.size(), state.end};
+}
+
+// Keeps what a Scout refers to. Calls of several threads follow one another.
 class PythonScout {
   // Before what calls it: its type is deduced.
   template <typename Work>
@@ -31,25 +45,33 @@ class PythonScout {
       limit_ = &limit;
       const auto reset = [this](const TimeLimit*) { limit_ = nullptr; };
       const std::unique_ptr<const TimeLimit, decltype(reset)> until_the_end(&limit, reset);
-      return work(*scout_);
+      auto result = work(*scout_);
+      const std::scoped_lock instant(shown_mutex_);
+      shown_ = shown_of(scout_->state());
+      return result;
     });
   }
 
  public:
   PythonScout(GivenSets sets, const Camera& camera, std::vector<Se3> views, ScoutOptions options,
               BackendPointer backend)
-      : given_(std::move(sets)), sets_(given_.sets()), backend_(std::move(backend)) {
+      : given_(std::move(sets)),
+        sets_(given_.sets()),
+        backend_(std::move(backend)),
+        camera_(camera),
+        views_(std::move(views)) {
     options.cancelled = [this] { return limit_ && limit_->is_cancelled(); };
     scout_ = on_backend(backend_, {}, [&](const TimeLimit&, Backend& on) {
-      return std::make_unique<Scout>(sets_, camera, std::move(views), options, on);
+      return std::make_unique<Scout>(sets_, camera_, views_, options, on);
     });
+    shown_ = shown_of(scout_->state());
   }
 
   std::optional<Proposal> propose() {
     const std::optional<ScoutDecision> decision =
         call([](Scout& scout) { return scout.propose(); });
     if (!decision) return {};
-    Proposal proposal{decision->view, state().views[std::size_t(decision->view)], {}};
+    Proposal proposal{decision->view, views_[std::size_t(decision->view)], {}};
     for (const ViewInformation& view : decision->views)
       proposal.values_nats.push_back(view.open ? view.value() : NAN);
     return proposal;
@@ -58,9 +80,9 @@ class PythonScout {
   void give(int view, const py::object& image, const py::object& camera_from_world,
             const py::object& depth, const DepthOptions* depth_options) {
     require_view(view);
-    const Se3 pose = camera_from_world.is_none() ? state().views[std::size_t(view)]
+    const Se3 pose = camera_from_world.is_none() ? views_[std::size_t(view)]
                                                  : pose_of(camera_from_world, "camera_from_world");
-    TakenImage taken{image_of(image), state().camera, pose, {}, {}};
+    TakenImage taken{image_of(image), camera_, pose, {}, {}};
     give_depth(taken, {depth, depth_options});
     const Shot shot{std::move(taken.image), pose, measured_depth(taken)};
     call([&](Scout& scout) {
@@ -71,12 +93,15 @@ class PythonScout {
 
   void unreachable(int view, const std::string& reason) {
     require_view(view);
-    scout_->unreachable(view, reason);
+    call([&](Scout& scout) {
+      scout.unreachable(view, reason);
+      return 0;
+    });
   }
 
-  std::vector<Instance> detections() const {
+  std::vector<Instance> detections() {
     std::vector<Instance> instances;
-    for (const ModeDetection& mode : state().detections) {
+    for (const ModeDetection& mode : shown().detections) {
       const TemplateSet& set = sets_[std::size_t(mode.detection.object)];
       instances.push_back(
           {{mode.detection, set.object_id, set.model.mesh.name}, mode.supporting_images});
@@ -91,20 +116,35 @@ class PythonScout {
     });
   }
 
-  const ScoutState& state() const { return scout_->state(); }
+  void save(const std::filesystem::path& file) {
+    call([&](Scout& scout) {
+      save_scout_state(scout.state(), file);
+      return 0;
+    });
+  }
+
+  // As of the last call.
+  ShownScout shown() {
+    const std::scoped_lock instant(shown_mutex_);
+    return shown_;
+  }
 
  private:
   void require_view(int view) const {
-    if (view < 0 || std::size_t(view) >= state().views.size())
+    if (view < 0 || std::size_t(view) >= views_.size())
       throw py::index_error("view: found " + std::to_string(view) + ", expected one of " +
-                            std::to_string(state().views.size()));
+                            std::to_string(views_.size()));
   }
 
   GivenSets given_;
   std::span<const TemplateSet> sets_;
   BackendPointer backend_;
+  const Camera camera_;
+  const std::vector<Se3> views_;
   const TimeLimit* limit_ = nullptr;  // of the call in progress
   std::unique_ptr<Scout> scout_;
+  std::mutex shown_mutex_;  // of what follows, for an instant
+  ShownScout shown_;
 };
 
 py::array_t<double> hemisphere(const std::array<double, 3>& center_m, double radius_m, int count,
@@ -116,8 +156,9 @@ py::array_t<double> hemisphere(const std::array<double, 3>& center_m, double rad
 void add_scout_results(py::module_& module) {
   py::class_<Proposal>(module, "Proposal", "The view that the scout asks for.")
       .def_readonly("view", &Proposal::view, "Index into the views that were given.")
-      .def_property_readonly("camera_from_world",
-                             [](const Proposal& p) { return matrix_of(p.camera_from_world); })
+      .def_property_readonly(
+          "camera_from_world", [](const Proposal& p) { return matrix_of(p.camera_from_world); },
+          "(4, 4) float64, metres, where the camera is to be sent.")
       .def_property_readonly(
           "values_nats",
           [](const Proposal& p) {
@@ -155,23 +196,22 @@ void add_scout(py::module_& module) {
            py::arg("camera_from_world") = py::none(), py::kw_only(), py::arg("depth") = py::none(),
            py::arg("depth_options") = nullptr,
            "Adds the image of a view, taken where it was planned or at the given (4, 4) pose. "
-           "depth: of the same camera and size, uint16 or float32, or None. Ctrl-C leaves the "
+           "image, depth: as those of detect(). Ctrl-C leaves the "
            "scout as it was.")
       .def("unreachable", &PythonScout::unreachable, py::arg("view"), py::arg("reason"),
            "The view failed; another one is proposed.")
-      .def_property_readonly("detections", &PythonScout::detections, "Most probable first.")
-      .def_property_readonly("entropy_nats",
-                             [](const PythonScout& s) { return s.state().entropy_nats; })
-      .def_property_readonly("images", [](const PythonScout& s) { return s.state().steps.size(); })
+      .def_property_readonly("detections", &PythonScout::detections,
+                             "Most probable first; as of the last call, as all that is read.")
       .def_property_readonly(
-          "end", [](const PythonScout& s) { return to_string(s.state().end); },
+          "entropy_nats", [](PythonScout& s) { return s.shown().entropy_nats; },
+          "What is uncertain about the objects, nats.")
+      .def_property_readonly(
+          "images", [](PythonScout& s) { return s.shown().images; }, "How many were given.")
+      .def_property_readonly(
+          "end", [](PythonScout& s) { return to_string(s.shown().end); },
           "Why it ended; empty while it goes on.")
-      .def(
-          "save",
-          [](const PythonScout& s, const std::filesystem::path& file) {
-            save_scout_state(s.state(), file);
-          },
-          py::arg("file"))
+      .def("save", &PythonScout::save, py::arg("file"),
+           "Writes the state, whole or not at all. resume() goes on from it.")
       .def("resume", &PythonScout::resume, py::arg("file"),
            "Goes on from a saved state of the same objects, camera and views.");
   module.def("hemisphere_views", &hemisphere, py::arg("center_m"), py::arg("radius_m"),

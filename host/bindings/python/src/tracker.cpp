@@ -1,5 +1,7 @@
 #include "host/track/tracker.h"
 
+#include <mutex>
+
 #include "host/bindings/python/src/found_objects.h"
 #include "host/bindings/python/src/parts.h"
 #include "host/bindings/python/src/shared_backend.h"
@@ -14,8 +16,19 @@ struct PythonTrack : Track {
   int object_id = 1;
 };
 
-// Keeps what a Tracker refers to.
+// Keeps what a Tracker refers to. Calls of several threads follow one another; search() goes beside
+// them. Tracks are read without waiting for a call.
 class PythonTracker {
+  // Before what calls it: its type is deduced. Without the interpreter's lock.
+  template <typename Work>
+  auto alone(const Work& work) {
+    const std::scoped_lock lock(calls_);
+    auto result = work(*tracker_);
+    const std::scoped_lock instant(shown_mutex_);
+    shown_ = tracker_->tracks();
+    return result;
+  }
+
  public:
   PythonTracker(GivenSets sets, const Camera& camera, const TrackOptions& options,
                 BackendPointer backend)
@@ -32,23 +45,30 @@ class PythonTracker {
     if (object < 0 || std::size_t(object) >= sets_.size())
       refuse("object", std::to_string(object),
              "one of " + std::to_string(sets_.size()) + " templates");
-    return tracker_->add(object, pose_of(camera_from_object, "camera_from_object"));
+    const Se3 pose = pose_of(camera_from_object, "camera_from_object");
+    return without_lock(
+        [&] { return alone([&](Tracker& tracker) { return tracker.add(object, pose); }); });
   }
 
-  void remove(int id) { tracker_->remove(id); }
+  void remove(int id) {
+    without_lock([&] {
+      alone([&](Tracker& tracker) {
+        tracker.remove(id);
+        return 0;
+      });
+    });
+  }
 
-  std::vector<PythonTrack> update(const py::array& image, double time_s, const py::object& depth,
+  std::vector<PythonTrack> update(const py::object& image, double time_s, const py::object& depth,
                                   const DepthOptions* depth_options) {
     const TrackFrame frame = frame_of(image, time_s, {depth, depth_options});
-    on_backend(backend_, {}, [&](const TimeLimit&, Backend&) {
-      tracker_->update(frame);
-      return 0;
-    });
-    return tracks();
+    return named(on_backend(backend_, {}, [&](const TimeLimit&, Backend&) {
+      return alone([&](Tracker& tracker) { return std::vector<Track>(tracker.update(frame)); });
+    }));
   }
 
   // On a backend of its own, so that another thread may update.
-  int search(const py::array& image, const py::object& depth, const DepthOptions* depth_options,
+  int search(const py::object& image, const py::object& depth, const DepthOptions* depth_options,
              const BackendPointer& backend, std::optional<double> max_seconds) {
     const TrackFrame frame = frame_of(image, 0, {depth, depth_options});
     if (backend == backend_ && backend)
@@ -59,23 +79,31 @@ class PythonTracker {
         [&](const TimeLimit& limit, Backend& on) { return tracker_->search(frame, on, limit); });
   }
 
-  py::array_t<std::uint8_t> overlay(const py::array& image) {
+  py::array_t<std::uint8_t> overlay(const py::object& image) {
     const TrackFrame frame = frame_of(image, 0, {py::none()});
     const std::vector<EdgeModel> models = models_of(sets_);
     return array_of(on_backend(backend_, {}, [&](const TimeLimit&, Backend& on) {
-      return draw_tracks(*frame.image, camera_, tracker_->tracks(), models, on);
+      return draw_tracks(*frame.image, camera_, shown(), models, on);
     }));
   }
 
-  std::vector<PythonTrack> tracks() const {
+  std::vector<PythonTrack> tracks() { return named(shown()); }
+
+ private:
+  // As of the last call.
+  std::vector<Track> shown() {
+    const std::scoped_lock instant(shown_mutex_);
+    return shown_;
+  }
+
+  std::vector<PythonTrack> named(const std::vector<Track>& tracks) const {
     std::vector<PythonTrack> named;
-    for (const Track& track : tracker_->tracks())
+    for (const Track& track : tracks)
       named.push_back({track, sets_[std::size_t(track.object)].object_id});
     return named;
   }
 
- private:
-  TrackFrame frame_of(const py::array& image, double time_s, const GivenDepth& depth) const {
+  TrackFrame frame_of(const py::object& image, double time_s, const GivenDepth& depth) const {
     TakenImage taken = taken_image(image, camera_, {});
     give_depth(taken, depth);
     return {std::make_shared<const Image>(std::move(taken.image)), time_s, measured_depth(taken)};
@@ -87,18 +115,21 @@ class PythonTracker {
   BackendPointer backend_;
   BackendPointer own_;  // of searches
   std::unique_ptr<Tracker> tracker_;
+  std::mutex calls_;        // held by a call; taken after the backend
+  std::mutex shown_mutex_;  // of what follows, for an instant
+  std::vector<Track> shown_;
 };
 
 void add_tracks(py::module_& module) {
-  py::enum_<TrackState>(module, "TrackState")
+  py::enum_<TrackState>(module, "TrackState", "How sure a pose is.")
       .value("TRACKED", TrackState::Tracked)
       .value("DOUBTFUL", TrackState::Doubtful, "Too few edges agree, or too few are visible.")
       .value("LOST", TrackState::Lost, "Doubtful for too long. Tracker.search() looks for it.");
   py::class_<PythonTrack>(module, "Track", "An instance that is followed.")
       .def_readonly("id", &PythonTrack::id, "From 1. It stays when the instance is found again.")
       .def_readonly("object", &PythonTrack::object, "Index into the templates that were given.")
-      .def_readonly("object_id", &PythonTrack::object_id)
-      .def_readonly("state", &PythonTrack::state)
+      .def_readonly("object_id", &PythonTrack::object_id, "That of its templates.")
+      .def_readonly("state", &PythonTrack::state, "Whether the pose can be relied on.")
       .def_property_readonly(
           "camera_from_object", [](const PythonTrack& t) { return matrix_of(t.world_from_object); },
           "4x4, metres.")
@@ -139,7 +170,7 @@ void add_tracker(py::module_& module) {
       .def("update", &PythonTracker::update, py::arg("image"), py::arg("time_s"), py::kw_only(),
            py::arg("depth") = py::none(), py::arg("depth_options") = nullptr,
            "All instances in the next image. time_s: when it was taken, on any clock; it rises. "
-           "depth: as that of detect().")
+           "image, depth: as those of detect().")
       .def(
           "search", &PythonTracker::search, py::arg("image"), py::kw_only(),
           py::arg("depth") = py::none(), py::arg("depth_options") = nullptr,
@@ -150,7 +181,9 @@ void add_tracker(py::module_& module) {
           "overlay", &PythonTracker::overlay, py::arg("image"),
           "The image with what is tracked or doubtful: (height, width, 3) uint8, red, green, blue. "
           "The number is that of above_chance.")
-      .def_property_readonly("tracks", &PythonTracker::tracks, "As of the last update().");
+      .def_property_readonly("tracks", &PythonTracker::tracks,
+                             "As of the last call; another thread "
+                             "may be in update().");
 }
 
 }  // namespace edgescout::python
