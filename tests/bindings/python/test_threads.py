@@ -36,7 +36,7 @@ def longest_stall_s(call):
 @pytest.fixture(scope="module")
 def ball():
     """Vertices and triangles of a bent ball, enough for a mesh to take a while."""
-    count = 120
+    count = 200
     up, around = np.meshgrid(np.linspace(0, np.pi, count),
                              np.linspace(0, 2 * np.pi, count, endpoint=False), indexing="ij")
     radius_m = 0.03 * (1 + 0.1 * np.sin(5 * around) * np.sin(up))
@@ -60,9 +60,14 @@ def large(tmp_path_factory):
 
 
 def expect_other_threads_to_run(calls):
+    """In one of five tries: on a busy machine another program may be the one that runs."""
     for name, call in calls.items():
-        longest_s, whole_s = longest_stall_s(call)
-        assert whole_s < 0.05 or longest_s < 0.5 * whole_s, (name, longest_s, whole_s)
+        for _ in range(5):
+            longest_s, whole_s = longest_stall_s(call)
+            lets_run = whole_s < 0.05 or longest_s < 0.5 * whole_s
+            if lets_run:
+                break
+        assert lets_run, (name, longest_s, whole_s)
 
 
 def test_other_threads_run_while_a_mesh_is_made(ball, tmp_path):
