@@ -28,6 +28,7 @@ void require_usable(const std::string& name, const std::vector<Vector3d>& vertic
 void require_usable(const std::string& name, const std::vector<Vector3d>& vertices,
                     const std::vector<std::array<int, 3>>& triangles) {
   const int count = static_cast<int>(vertices.size());
+  if (count == 0 && !triangles.empty()) throw InputError(name, "vertices", "none", "at least 3");
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for (int v : triangles[i]) {
       if (v < 0 || v >= count)

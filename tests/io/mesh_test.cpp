@@ -154,6 +154,11 @@ TEST(MakeMesh, RejectsVerticesThatAreNotFiniteAndIndicesOutOfRange) {
     expect_input_error([&] { make_mesh("m", x, b.triangles); }, {"m: vertex 5", "not finite"});
   }
   expect_input_error(
+      [] {
+        make_mesh("m", {}, {{0, 1, 2}});
+      },
+      {"m: vertices", "none", "at least 3"});
+  expect_input_error(
       [&] {
         make_mesh("m", b.vertices, {{0, 1, 8}});
       },

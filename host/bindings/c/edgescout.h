@@ -13,15 +13,17 @@
              a scout, a mesh in a call of another thread) lives on until they end.
    Structs   Begin with struct_size, which the caller sets to sizeof, also where the library fills
              the rest: `edgescout_limit limit = {.struct_size = sizeof limit};`. A field that is 0
-             or NULL has its default. So structs may grow: a newer library takes the fields of an
-             older struct, an older library refuses newer fields that are not 0.
+             or NULL has its default, and `reserved` is 0. So structs may grow: a newer library
+             takes the fields of an older struct, an older library refuses newer fields that are not
+             0.
    Strings   UTF-8. Those that a struct returns belong to the handle that was asked, and last as
              long as it does, if nothing else is said.
    Threads   All functions may be called from any thread. Handles that never change (mesh, camera,
              templates, picture, detections) and cancellers may be used by several threads at once.
              An options, a backend, a scout or a tracker is used by one call at a time: a second
-   one, from another thread or from a callback, returns EDGESCOUT_BUSY. Each function says whom it
-             keeps busy, where it does. A call may take a second or more; edgescout_limit ends it.
+             one, from another thread or from a callback, returns EDGESCOUT_BUSY. Each function says
+             whom it keeps busy, where it does. A call may take a second or more; edgescout_limit
+             ends it.
    Callbacks run on the thread that called, inside the call. They must return: no longjmp. No
              pthread_cancel of a thread in a call either.
    Maths     M. Imperoli, A. Pretto, arXiv:1603.07022, with the changes that docs/architecture.md
@@ -392,11 +394,12 @@ typedef struct edgescout_request {
 } edgescout_request;
 
 /* In one view, most probable first. Poses are camera_from_object: the world of the results is the
-   camera frame. options: EDGESCOUT_DETECT_OPTIONS. */
+   camera frame. options: EDGESCOUT_DETECT_OPTIONS. Busy meanwhile: the backend of the request. */
 EDGESCOUT_API edgescout_status edgescout_detect(const edgescout_request* request,
                                                 edgescout_detections** out);
 /* In all views of one static scene at once; each has its camera_from_world. Poses are
-   world_from_object. options: EDGESCOUT_DETECT_OPTIONS. */
+   world_from_object. options: EDGESCOUT_DETECT_OPTIONS. Busy meanwhile: the backend of the
+   request. */
 EDGESCOUT_API edgescout_status edgescout_detect_jointly(const edgescout_request* request,
                                                         edgescout_detections** out);
 
@@ -408,7 +411,8 @@ typedef struct edgescout_starts {
   size_t count;
 } edgescout_starts;
 /* Refines them over all views. The results are in the order of the starts; one that no view shows
-   has probability 0 and the convergence "out of sight". options: EDGESCOUT_REGISTER_OPTIONS. */
+   has probability 0 and the convergence "out of sight". options: EDGESCOUT_REGISTER_OPTIONS. Busy
+   meanwhile: the backend of the request. */
 EDGESCOUT_API edgescout_status edgescout_register(const edgescout_request* request,
                                                   const edgescout_starts* starts,
                                                   edgescout_detections** out);
@@ -507,7 +511,8 @@ typedef struct edgescout_proposal {
   double camera_from_world[16]; /* of the view */
 } edgescout_proposal;
 
-/* The same until an image or a failure is given. CANCELLED: nothing has changed. */
+/* The same until an image or a failure is given. CANCELLED: nothing has changed. Busy meanwhile:
+   the scout and the backend of its plan. */
 EDGESCOUT_API edgescout_status edgescout_scout_propose(edgescout_scout* scout,
                                                        const edgescout_limit* limit,
                                                        edgescout_proposal* out);
@@ -538,9 +543,11 @@ typedef struct edgescout_shot {
   const edgescout_camera* depth_camera;
   const double* camera_from_depth;
 } edgescout_shot;
+/* Busy meanwhile: the scout and the backend of its plan. */
 EDGESCOUT_API edgescout_status edgescout_scout_give(edgescout_scout* scout,
                                                     const edgescout_shot* shot);
-/* The view failed and is not proposed again. reason: NULL or a text for the state. */
+/* The view failed and is not proposed again. reason: NULL or a text for the state. Busy meanwhile:
+   the scout. */
 EDGESCOUT_API edgescout_status edgescout_scout_unreachable(edgescout_scout* scout, int32_t view,
                                                            const char* reason);
 
@@ -583,7 +590,8 @@ EDGESCOUT_API edgescout_status edgescout_scout_detections(const edgescout_scout*
 
 /* The whole state in a file, atomically. */
 EDGESCOUT_API edgescout_status edgescout_scout_save(const edgescout_scout* scout, const char* file);
-/* Goes on from a file of the same parts, camera and views. limit: or NULL. */
+/* Goes on from a file of the same parts, camera and views. limit: or NULL. Busy meanwhile: the
+   scout and the backend of its plan. */
 EDGESCOUT_API edgescout_status edgescout_scout_resume(edgescout_scout* scout, const char* file,
                                                       const edgescout_limit* limit);
 
@@ -606,11 +614,12 @@ EDGESCOUT_API edgescout_status edgescout_tracker_create(const edgescout_tracker_
                                                         edgescout_tracker** out);
 
 /* Follows an object, given by the index of its part in the templates, from a pose that is known to
-   about 10 px in the next image. id: its number, which stays when it is lost and found again. */
+   about 10 px in the next image. id: its number, which stays when it is lost and found again. Busy
+   meanwhile: the tracker, but for searches. */
 EDGESCOUT_API edgescout_status edgescout_tracker_add(edgescout_tracker* tracker, int32_t object,
                                                      const double camera_from_object[16],
                                                      int32_t* id);
-/* Forgets it. BAD_INPUT: no such id. */
+/* Forgets it. BAD_INPUT: no such id. Busy meanwhile: the tracker, but for searches. */
 EDGESCOUT_API edgescout_status edgescout_tracker_remove(edgescout_tracker* tracker, int32_t id);
 
 typedef struct edgescout_frame {
@@ -622,7 +631,8 @@ typedef struct edgescout_frame {
   const edgescout_camera* depth_camera;
   const double* camera_from_depth;
 } edgescout_frame;
-/* All instances in the new image; edgescout_tracker_at has them. Some milliseconds. */
+/* All instances in the new image; edgescout_tracker_at has them. Some milliseconds. Busy meanwhile:
+   the tracker, but for searches, and the backend of its plan. */
 EDGESCOUT_API edgescout_status edgescout_tracker_update(edgescout_tracker* tracker,
                                                         const edgescout_frame* frame);
 

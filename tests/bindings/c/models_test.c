@@ -34,6 +34,10 @@ static void expect_meshes(const struct scene* scene) {
   SAYS("found vertex index");
   triangles[0] = -1;
   EXPECT(EDGESCOUT_BAD_INPUT, es_mesh_create(&arrays, &made));
+  arrays.vertex_count = 0;
+  EXPECT(EDGESCOUT_BAD_INPUT, es_mesh_create(&arrays, &made));
+  SAYS("vertices: found none, expected at least 3");
+  arrays.vertex_count = info.vertex_count;
   triangles[0] = triangles[1];
   vertices_m[0] = NAN;
   EXPECT(EDGESCOUT_BAD_INPUT, es_mesh_create(&arrays, &made));

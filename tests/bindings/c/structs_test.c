@@ -197,6 +197,20 @@ static void expect_arrays_of_larger_structs(void) {
   SAYS("expected that of the first");
 }
 
+/* Fields that have no meaning yet. */
+static void expect_zero_in_reserved(void) {
+  edgescout_camera_model model = {.struct_size = sizeof model};
+  OK(es_camera_get(scene.camera, &model));
+  OK(camera_model(&model));
+  model.reserved = 1;
+  EXPECT(EDGESCOUT_WRONG_VERSION, camera_model(&model));
+  SAYS("model.reserved: found 1, expected 0");
+  edgescout_image marked = scene.image;
+  marked.reserved = -7;
+  EXPECT(EDGESCOUT_WRONG_VERSION, image(&marked));
+  SAYS("image.reserved: found -7, expected 0");
+}
+
 /* A change of these breaks programs that were compiled before: EDGESCOUT_ABI must then change. */
 static void expect_the_layout_of_this_abi(void) {
   CHECK(EDGESCOUT_ABI == 0);
@@ -239,6 +253,7 @@ void test_structs(void) {
   expect_versions_of_filled();
   expect_versions_of_read();
   expect_arrays_of_larger_structs();
+  expect_zero_in_reserved();
   expect_views_without_depth();
   OK(es_free(scout));
   OK(es_free(detections));

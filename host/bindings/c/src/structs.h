@@ -48,7 +48,8 @@ std::size_t struct_size_of(const Struct* given, const char* name) {
   return size;
 }
 
-// What the caller gave, with the rest 0. Fields that only a newer header has must be 0.
+// What the caller gave, with the rest 0. Fields that only a newer header has, or that have no
+// meaning yet, must be 0.
 template <typename Struct>
 Struct read_struct(const Struct* given, const char* name) {
   const std::size_t size = struct_size_of(given, name);
@@ -59,6 +60,10 @@ Struct read_struct(const Struct* given, const char* name) {
                   [](unsigned char byte) { return byte != 0; }))
     refuse(EDGESCOUT_WRONG_VERSION, name, "fields that version " EDGESCOUT_VERSION " does not have",
            "0 in them");
+  if constexpr (requires { result.reserved; })
+    if (result.reserved != 0)
+      refuse(EDGESCOUT_WRONG_VERSION, std::string(name) + ".reserved",
+             std::to_string(result.reserved), "0");
   return result;
 }
 
