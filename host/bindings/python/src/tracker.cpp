@@ -97,10 +97,10 @@ class PythonTracker {
   }
 
   std::vector<PythonTrack> named(const std::vector<Track>& tracks) const {
-    std::vector<PythonTrack> named;
+    std::vector<PythonTrack> result;
     for (const Track& track : tracks)
-      named.push_back({track, sets_[std::size_t(track.object)].object_id});
-    return named;
+      result.push_back({track, sets_[std::size_t(track.object)].object_id});
+    return result;
   }
 
   TrackFrame frame_of(const py::object& image, double time_s, const GivenDepth& depth) const {
