@@ -27,12 +27,61 @@ edgescout:
 
 TEST(RosArguments, ReadsAParameterFile) {
   Parameters parameters;
-  add_parameters(file, "f.yaml", "edgescout", parameters);
+  EXPECT_EQ(add_parameters(file, "f.yaml", "/edgescout", parameters), "");
   EXPECT_EQ(options_of(parameters, "", {}),
             (Words{"--min-probability=0.5", "--model", "a.ply", "b c.ply", "--on-request=true"}));
   EXPECT_EQ(options_of(parameters, "scout.", {}), (Words{"--radius=0.4"}));
   EXPECT_EQ(options_of(parameters, "", {"--model", "c.ply", "--on-request"}),
             (Words{"--min-probability=0.5"}));
+}
+
+// Whether a file's section is read for a node, and what is said where it is not.
+std::string warning_of(const std::string& section, const std::string& node, bool is_read) {
+  Parameters parameters;
+  const std::string warning = add_parameters(
+      "\"" + section + "\": {ros__parameters: {min_probability: 0.5}}", "f.yaml", node, parameters);
+  EXPECT_EQ(parameters.contains("min_probability"), is_read) << section << " " << node;
+  EXPECT_EQ(warning.empty(), is_read) << section << " " << node;
+  return warning;
+}
+
+TEST(RosArguments, SectionsNameTheNodeWithItsNamespace) {
+  for (const char* section : {"/cell/edgescout", "cell/edgescout", "/cell/*", "/*/edgescout", "/**",
+                              "**", "/**/edgescout", "/cell/**", "/*/*", "/**/*", "/cell/**/*"})
+    warning_of(section, "/cell/edgescout", true);
+  for (const char* section : {"/edgescout", "edgescout", "/*", "/cell", "/cell/edgescout/part",
+                              "/cell/edge", "/*/*/*", "/cell/other", "/hall/**"})
+    warning_of(section, "/cell/edgescout", false);
+  for (const char* section : {"edgescout", "/edgescout", "/*", "/**/edgescout", "/**"})
+    warning_of(section, "/edgescout", true);
+  EXPECT_EQ(warning_of("edgescout", "/cell/edgescout", false),
+            "f.yaml: sections: found edgescout, expected /cell/edgescout or /**: no parameter of "
+            "it is read");
+}
+
+TEST(RosArguments, NodesMayStandInTheirNamespaces) {
+  Parameters parameters;
+  const std::string text =
+      "/hall:\n  cell:\n    edgescout: {ros__parameters: {unit: mm, scout: {radius: 0.4}}}\n"
+      "    other: {ros__parameters: {nonsense: 1}}\n";
+  EXPECT_EQ(add_parameters(text, "f.yaml", "/hall/cell/edgescout", parameters), "");
+  EXPECT_EQ(parameters.size(), 2u);
+  EXPECT_EQ(parameters.at("unit").values, Words{"mm"});
+  EXPECT_NE(add_parameters(text, "f.yaml", "/cell/edgescout", parameters)
+                .find("found /hall/cell/edgescout, /hall/cell/other, expected /cell/edgescout"),
+            std::string::npos);
+}
+
+TEST(RosArguments, WarnsOfAFileOfOtherNodes) {
+  const edgescout::test::TemporaryFolder folder;
+  const std::string other = folder.write("o.yaml", "other: {ros__parameters: {a: 9}}");
+  const std::string own = folder.write("p.yaml", "/cell/edgescout: {ros__parameters: {a: 1}}");
+  const RosArguments ros = ros_arguments(
+      {"--ros-args", "--params-file", other, "--params-file", own, "-r", "__ns:=/cell"});
+  EXPECT_EQ(ros.parameters.at("a").values, Words{"1"});
+  ASSERT_EQ(ros.warnings.size(), 1u);
+  EXPECT_NE(ros.warnings[0].find("o.yaml: sections: found other, expected /cell/edgescout"),
+            std::string::npos);
 }
 
 TEST(RosArguments, LaterWordsCount) {
@@ -77,7 +126,7 @@ TEST(RosArguments, RefusesOtherWords) {
       {"none.yaml"});
   Parameters parameters;
   const auto add = [&](const std::string& text) {
-    return [&parameters, text] { add_parameters(text, "f.yaml", "edgescout", parameters); };
+    return [&parameters, text] { add_parameters(text, "f.yaml", "/edgescout", parameters); };
   };
   expect_input_error(add("a: [b"), {"f.yaml: line"});
   expect_input_error(add("- 1"), {"f.yaml: file: found no sections"});

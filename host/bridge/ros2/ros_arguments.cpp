@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "host/io/files.h"
 #include "host/io/one_line.h"
@@ -42,10 +43,72 @@ void add_map(const YAML::Node& map, const std::string& source, const std::string
   }
 }
 
-bool is_for(const std::string& section, const std::string& node) {
-  return section == "/**" || section == "**" || section == node || section == "/" + node ||
-         section == "/**/" + node;
+// "/cell/edgescout" -> "/cell"
+std::string_view first_part(std::string_view name) { return name.substr(0, name.find('/', 1)); }
+
+// As rcl: "*" stands for one part of a name, "**" for any number of them. Both begin with "/".
+bool matches(std::string_view section, std::string_view node) {
+  if (section.empty()) return node.empty();
+  const std::string_view part = first_part(section), rest = section.substr(part.size());
+  if (part == "/**") {
+    while (!matches(rest, node)) {
+      if (node.empty()) return false;
+      node.remove_prefix(first_part(node).size());
+    }
+    return true;
+  }
+  if (node.empty()) return false;
+  const std::string_view of_node = first_part(node);
+  return (part == "/*" || part == of_node) && matches(rest, node.substr(of_node.size()));
 }
+
+// The sections of a file. Those of other nodes are noted by name.
+class Sections {
+ public:
+  Sections(const std::string& source, const std::string& node, Parameters& parameters)
+      : source_(source), node_(node), parameters_(parameters) {}
+
+  // `space`: the names that the map stands under.
+  void read(const YAML::Node& map, const std::string& space) {
+    for (const auto& section : map) {
+      const std::string key = section.first.as<std::string>();
+      const std::string name =
+          space.empty() || key.starts_with('/') ? space + key : space + "/" + key;
+      const bool is_of_node = matches(name.starts_with('/') ? name : "/" + name, node_);
+      const YAML::Node values = section.second.IsMap() ? section.second["ros__parameters"]
+                                                       : YAML::Node(YAML::NodeType::Undefined);
+      if (values.IsDefined() && values.IsMap()) {
+        if (is_of_node) add_map(values, source_, "", parameters_);
+      } else if (is_namespace(section.second)) {
+        read(section.second, name);
+        continue;
+      } else if (is_of_node) {
+        throw InputError(source_, name, "no map ros__parameters", "one");
+      }
+      has_node_ = has_node_ || is_of_node;
+      if (!is_of_node) others_ += (others_.empty() ? "" : ", ") + name;
+    }
+  }
+
+  std::string warning() const {
+    return has_node_ ? ""
+                     : source_ + ": sections: found " + (others_.empty() ? "none" : others_) +
+                           ", expected " + node_ + " or /**: no parameter of it is read";
+  }
+
+ private:
+  // "cell: {edgescout: {ros__parameters: ..}}"
+  static bool is_namespace(const YAML::Node& map) {
+    return map.IsMap() && map.size() > 0 &&
+           std::ranges::all_of(map, [](const auto& entry) { return entry.second.IsMap(); });
+  }
+
+  const std::string& source_;
+  const std::string& node_;
+  Parameters& parameters_;
+  std::string others_;
+  bool has_node_ = false;
+};
 
 // "a:=b" -> {"a", "b"}
 std::pair<std::string, std::string> assignment(const std::string& word) {
@@ -108,6 +171,11 @@ std::vector<RosWord> split(const std::vector<std::string>& arguments, RosArgumen
   return words;
 }
 
+void add_file(const std::string& file, RosArguments& ros) {
+  const std::string warning = add_parameters(read_file(file), file, node_name(ros), ros.parameters);
+  if (!warning.empty()) ros.warnings.push_back(warning);
+}
+
 }  // namespace
 
 RosArguments ros_arguments(const std::vector<std::string>& arguments) {
@@ -122,40 +190,37 @@ RosArguments ros_arguments(const std::vector<std::string>& arguments) {
     if (is_any(word, {"-p", "--param"}))
       add_parameter(value, ros.parameters);
     else if (word == "--params-file")
-      add_parameters(read_file(value), value, ros.node, ros.parameters);
+      add_file(value, ros);
     else if (!is_any(word, {"-r", "--remap", "--log-level"}))
       throw InputError(command_line, "--ros-args", word, "-p, -r, --params-file or --log-level");
   }
   return ros;
 }
 
-void add_parameters(const std::string& text, const std::string& source, const std::string& node,
-                    Parameters& parameters) {
-  with_errors_of_one_line([&] {
+std::string add_parameters(const std::string& text, const std::string& source,
+                           const std::string& node, Parameters& parameters) {
+  return with_errors_of_one_line([&] {
     try {
       const YAML::Node root = YAML::Load(text);
       if (!root.IsMap())
         throw InputError(source, "file", "no sections", "\"/**:\" with ros__parameters in it");
-      for (const auto& section : root) {
-        const std::string name = section.first.as<std::string>();
-        if (!is_for(name, node)) continue;
-        const YAML::Node map = section.second.IsMap() ? section.second["ros__parameters"]
-                                                      : YAML::Node(YAML::NodeType::Undefined);
-        if (!map.IsDefined() || !map.IsMap())
-          throw InputError(source, name, "no map ros__parameters", "one");
-        add_map(map, source, "", parameters);
-      }
+      Sections sections(source, node, parameters);
+      sections.read(root, "");
+      return one_line(sections.warning());
     } catch (const YAML::Exception& error) {
       throw InputError(source, "line " + std::to_string(error.mark.line + 1), error.msg, "YAML");
     }
-    return 0;
   });
+}
+
+std::string node_name(const RosArguments& ros) {
+  return (ros.space == "/" ? "" : ros.space) + "/" + ros.node;
 }
 
 std::string full_name(const std::string& name, const RosArguments& ros) {
   const auto whole = [&](const std::string& part) {
     const std::string space = ros.space == "/" ? "" : ros.space;
-    if (part.starts_with("~/")) return space + "/" + ros.node + part.substr(1);
+    if (part.starts_with("~/")) return node_name(ros) + part.substr(1);
     return part.starts_with('/') ? part : space + "/" + part;
   };
   for (const auto& [from, to] : ros.names)

@@ -19,17 +19,23 @@ struct RosArguments {
   Parameters parameters;                        // of this node; later ones count
   std::map<std::string, std::string> names;     // as stated: "image" -> "/camera/image_raw"
   std::vector<std::string> rest;                // all other arguments
+  std::vector<std::string> warnings;            // of files without a section of this node
 };
+
+// "/cell/edgescout"
+std::string node_name(const RosArguments& arguments);
 
 // Reads "--ros-args [-p NAME:=VALUE] [-r FROM:=TO] [--params-file FILE] [--]". Sections of a file
 // for other nodes are left out. InputError: a word that is none of these; a file that is no
 // parameter file, naming file and key.
 RosArguments ros_arguments(const std::vector<std::string>& arguments);
 
-// Adds the parameters of a file's text for a node: sections "/**", "edgescout", "/edgescout",
-// "/**/edgescout". InputError naming `source` and key.
-void add_parameters(const std::string& text, const std::string& source, const std::string& node,
-                    Parameters& parameters);
+// Adds the parameters of a file's text for a node, given by its whole name ("/cell/edgescout"): of
+// sections that match it as rcl says ("cell/edgescout", "/*/edgescout", "/**"; nodes may stand in
+// their namespaces). Returns a warning where none does, else nothing. InputError naming `source`
+// and key.
+std::string add_parameters(const std::string& text, const std::string& source,
+                           const std::string& node, Parameters& parameters);
 
 // The whole name of a topic or service, after the renaming of the command line: "image" ->
 // "/image",

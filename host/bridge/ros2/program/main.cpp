@@ -130,6 +130,7 @@ int run(const std::vector<std::string>& arguments) {
     return exit_done;
   }
   send_log_to_stderr(options.log_level);
+  for (const std::string& warning : options.ros.warnings) log(LogLevel::Warning, warning);
   return run_node(options);
 }
 
