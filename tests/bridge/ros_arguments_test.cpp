@@ -110,6 +110,59 @@ TEST(RosArguments, NamesMayBeGivenWhole) {
   EXPECT_EQ(full_name("image", ros), "/x");
 }
 
+TEST(RosArguments, RenamesOfOneNodeCountForItAlone) {
+  const RosArguments ros = ros_arguments({"--ros-args", "-r", "edgescout:__node:=finder", "-r",
+                                          "other:__node:=nobody", "-r", "finder:image:=/a", "-r",
+                                          "edgescout:camera_info:=/b", "-r", "finder:__ns:=/cell"});
+  EXPECT_EQ(node_name(ros), "/cell/finder");
+  EXPECT_EQ(full_name("image", ros), "/a");
+  EXPECT_EQ(full_name("camera_info", ros), "/cell/camera_info");
+}
+
+TEST(RosArguments, RefusesNamesThatRosRefuses) {
+  for (const char* renaming : {"__node:=bad name", "__node:=", "__node:=1st", "__node:=a/b",
+                               "__ns:=/a b", "__ns:=/a/", "__ns:=//a", "image:=/a b", "image:=",
+                               "image:=/1st", "im age:=/a", "edgescout::=/a", "~image:=/a"})
+    expect_input_error(
+        [&] {
+          ros_arguments({"--ros-args", "-r", renaming});
+        },
+        {"command line", "expected a name of letters, digits and _"});
+  expect_input_error(
+      [] {
+        ros_arguments({"--ros-args", "-r", "__node:=bad name"});
+      },
+      {"command line: __node: found \"bad name\""});
+}
+
+TEST(RosArguments, TheLogLevelIsAParameter) {
+  const edgescout::test::TemporaryFolder folder;
+  const std::string path = folder.write("p.yaml", "/**: {ros__parameters: {log_level: debug}}");
+  const auto level_of = [&](const Words& more) {
+    Words words{"--ros-args", "-r", "__ns:=/cell", "--params-file", path};
+    words.insert(words.begin() + 1, more.begin(), more.end());
+    return ros_arguments(words).parameters.at("log_level").values.at(0);
+  };
+  EXPECT_EQ(level_of({}), "debug");
+  EXPECT_EQ(level_of({"--log-level", "warn"}), "warning");
+  EXPECT_EQ(level_of({"--log-level", "INFO"}), "info");
+  EXPECT_EQ(level_of({"--log-level", "fatal"}), "error");
+  EXPECT_EQ(level_of({"--log-level", "cell.edgescout:=error"}), "error");
+  EXPECT_EQ(level_of({"--log-level", "rcl:=error"}), "debug");
+  for (const char* level : {"debug2", "", "rcl:=loud"})
+    expect_input_error(
+        [&] {
+          level_of({"--log-level", level});
+        },
+        {"command line: --log-level: found ", "expected debug, info, warn, error"});
+}
+
+TEST(RosArguments, KnowsTruthValues) {
+  for (const char* word : {"true", "false", "True", "yes", "off"})
+    EXPECT_TRUE(is_truth_value(word));
+  for (const char* word : {"7", "1", "maybe", ""}) EXPECT_FALSE(is_truth_value(word)) << word;
+}
+
 TEST(RosArguments, RefusesOtherWords) {
   expect_input_error([] { ros_arguments({"--ros-args", "-x", "y"}); }, {"--ros-args: found -x"});
   expect_input_error([] { ros_arguments({"--ros-args", "-p"}); }, {"-p: found nothing after it"});

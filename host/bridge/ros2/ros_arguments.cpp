@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <string_view>
 
 #include "host/io/files.h"
@@ -128,14 +129,86 @@ void add_parameter(const std::string& word, Parameters& parameters) {
   }
 }
 
-void add_name(const std::string& word, RosArguments& ros) {
-  const auto [from, to] = assignment(word);
-  if (from == "__node" || from == "__name")
-    ros.node = to;
-  else if (from == "__ns")
-    ros.space = to.starts_with('/') ? to : "/" + to;
-  else
-    ros.names[from] = to;
+// Letters, digits and "_", no digit first.
+bool is_name(std::string_view word) {
+  const auto is_letter = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+  };
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  return !word.empty() && !is_digit(word[0]) &&
+         std::ranges::all_of(word, [&](char c) { return is_letter(c) || is_digit(c); });
+}
+
+// "image", "/camera/image", "~/detections"
+bool is_topic_name(std::string_view word) {
+  if (word.starts_with("~/")) word.remove_prefix(1);
+  const std::string whole = word.starts_with('/') ? std::string(word) : "/" + std::string(word);
+  for (std::string_view rest = whole; !rest.empty(); rest.remove_prefix(first_part(rest).size()))
+    if (!is_name(first_part(rest).substr(1))) return false;
+  return true;
+}
+
+void require_name(bool is_one, const std::string& of, const std::string& name) {
+  if (!is_one)
+    throw InputError(command_line, of, "\"" + name + "\"",
+                     "a name of letters, digits and _, no digit first");
+}
+
+// "-r FROM:=TO", for one node alone "-r NODE:FROM:=TO".
+struct Renaming {
+  std::string node, from, to;
+};
+
+Renaming renaming_of(const std::string& word) {
+  auto [from, to] = assignment(word);
+  const std::size_t colon = from.find(':');
+  if (colon == std::string::npos) return {"", from, to};
+  return {from.substr(0, colon), from.substr(colon + 1), to};
+}
+
+// As rcl: the node's name first, then its namespace, then the others; each counts for the name that
+// the node has by then.
+void add_names(const std::vector<Renaming>& renamings, RosArguments& ros) {
+  const auto is_of_node = [](const std::string& from) {
+    return from == "__node" || from == "__name";
+  };
+  const auto is_for = [](const Renaming& renaming, const std::string& node) {
+    return renaming.node.empty() || renaming.node == node;
+  };
+  const std::string first_name = ros.node;
+  for (const Renaming& each : renamings)
+    if (is_of_node(each.from) && is_for(each, first_name)) {
+      require_name(is_name(each.to), each.from, each.to);
+      ros.node = each.to;
+    }
+  for (const Renaming& each : renamings) {
+    if (is_of_node(each.from) || !is_for(each, ros.node)) continue;
+    if (each.from == "__ns") {
+      ros.space = each.to.starts_with('/') ? each.to : "/" + each.to;
+      require_name(ros.space == "/" || is_topic_name(ros.space), each.from, each.to);
+    } else {
+      require_name(is_topic_name(each.from), "-r", each.from);
+      require_name(is_topic_name(each.to), each.from, each.to);
+      ros.names[each.from] = each.to;
+    }
+  }
+}
+
+// "warn", or of one logger: "edgescout:=debug".
+void add_log_level(const std::string& word, RosArguments& ros) {
+  const std::size_t middle = word.find(":=");
+  std::string logger = middle == std::string::npos ? "" : word.substr(0, middle);
+  std::string level = middle == std::string::npos ? word : word.substr(middle + 2);
+  std::ranges::transform(level, level.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::map<std::string, std::string> levels{{"debug", "debug"},  {"info", "info"},
+                                                  {"warn", "warning"}, {"warning", "warning"},
+                                                  {"error", "error"},  {"fatal", "error"}};
+  const auto known = levels.find(level);
+  if (known == levels.end())
+    throw InputError(command_line, "--log-level", word, "debug, info, warn, error or fatal");
+  std::ranges::replace(logger, '.', '/');
+  if (logger.empty() || "/" + logger == node_name(ros))
+    ros.parameters["log_level"] = {command_line, {known->second}};
 }
 
 // One of the words after --ros-args, with the value that follows it.
@@ -184,8 +257,10 @@ RosArguments ros_arguments(const std::vector<std::string>& arguments) {
   const auto is_any = [](const std::string& word, std::initializer_list<const char*> names) {
     return std::ranges::find(names, word) != names.end();
   };
-  for (const auto& [word, value] : words)  // first: sections of files name the node
-    if (is_any(word, {"-r", "--remap"})) add_name(value, ros);
+  std::vector<Renaming> renamings;  // first: sections of files name the node
+  for (const auto& [word, value] : words)
+    if (is_any(word, {"-r", "--remap"})) renamings.push_back(renaming_of(value));
+  add_names(renamings, ros);
   for (const auto& [word, value] : words) {
     if (is_any(word, {"-p", "--param"}))
       add_parameter(value, ros.parameters);
@@ -194,6 +269,8 @@ RosArguments ros_arguments(const std::vector<std::string>& arguments) {
     else if (!is_any(word, {"-r", "--remap", "--log-level"}))
       throw InputError(command_line, "--ros-args", word, "-p, -r, --params-file or --log-level");
   }
+  for (const auto& [word, value] : words)  // counts more than a file's log_level
+    if (word == "--log-level") add_log_level(value, ros);
   return ros;
 }
 
@@ -226,6 +303,11 @@ std::string full_name(const std::string& name, const RosArguments& ros) {
   for (const auto& [from, to] : ros.names)
     if (from == name || whole(from) == whole(name)) return whole(to);
   return whole(name);
+}
+
+bool is_truth_value(const std::string& word) {
+  bool value = false;
+  return YAML::convert<bool>::decode(YAML::Node(word), value);
 }
 
 std::string beside(const std::string& topic, const std::string& name) {

@@ -25,9 +25,10 @@ struct RosArguments {
 // "/cell/edgescout"
 std::string node_name(const RosArguments& arguments);
 
-// Reads "--ros-args [-p NAME:=VALUE] [-r FROM:=TO] [--params-file FILE] [--]". Sections of a file
-// for other nodes are left out. InputError: a word that is none of these; a file that is no
-// parameter file, naming file and key.
+// Reads "--ros-args [-p NAME:=VALUE] [-r [NODE:]FROM:=TO] [--params-file FILE] [--log-level LEVEL]
+// [--]". Sections of a file, renamings and levels of other nodes are left out. The level becomes
+// the parameter log_level. InputError: a word that is none of these; a name that ROS refuses; a
+// file that is no parameter file, naming file and key.
 RosArguments ros_arguments(const std::vector<std::string>& arguments);
 
 // Adds the parameters of a file's text for a node, given by its whole name ("/cell/edgescout"): of
@@ -36,6 +37,9 @@ RosArguments ros_arguments(const std::vector<std::string>& arguments);
 // and key.
 std::string add_parameters(const std::string& text, const std::string& source,
                            const std::string& node, Parameters& parameters);
+
+// Whether YAML takes the word for true or false.
+bool is_truth_value(const std::string& word);
 
 // The whole name of a topic or service, after the renaming of the command line: "image" ->
 // "/image",

@@ -164,6 +164,8 @@ TEST(Program, RefusesWrongRequestsInOneLine) {
   const std::string scout =
       folder.write("s.yaml", "/**:\n  ros__parameters: {scout: {max_view: 3}}\n");
   const std::string value = folder.write("v.yaml", "/**:\n  ros__parameters: {candidates: 0}\n");
+  const std::string list =
+      folder.write("l.yaml", "edgescout:\n  ros__parameters: {min_probability: [1, 2]}\n");
   const Refusal refusals[] = {
       {bracket({"--ros-args", "--params-file", file}),
        {"p.yaml: minimum_probability: found an unknown parameter"}},
@@ -174,6 +176,15 @@ TEST(Program, RefusesWrongRequestsInOneLine) {
       {bracket({"--candidates", "0"}), {"--candidates: found 0, expected 1 to"}},
       {bracket({"--ros-args", "-p", "scout.max_views:=0"}),
        {"command line: scout.max_views: found 0, expected 1 to"}},
+      {bracket({"--ros-args", "--params-file", list}),
+       {"l.yaml: min_probability: found a list of 2 values, expected one value"}},
+      {bracket({"--ros-args", "-p", "world_box:=[0, 0, 0, 1, 1, 1, 1]"}),
+       {"command line: world_box: found a list of 7 values, expected 6 at most"}},
+      {bracket({"--ros-args", "-p", "publish_tf:=maybe"}),
+       {"command line: publish_tf: found maybe, expected true or false"}},
+      {bracket({"--ros-args", "-p", "faint_edges:=7"}),
+       {"command line: faint_edges: found 7, expected true or false"}},
+      {bracket({"--publish-tf=maybe"}), {"--publish-tf: found maybe, expected"}},
       {bracket({"-p", "min_probability:=0.5"}), {"-p: found it without --ros-args"}},
       {bracket({"--ros-args", "-p", "tpyo:=1"}),
        {"command line: tpyo: found an unknown parameter"}},
@@ -214,6 +225,18 @@ TEST(Program, TheExampleOfParametersIsOne) {
   EXPECT_EQ(options.bridge.scout.max_views, 4);
   EXPECT_EQ(options.templates.distance_min_m, 0.3);
   EXPECT_NE(read_options({"--help"}, options).find("--on-request"), std::string::npos);
+}
+
+// What stands before --ros-args counts more.
+TEST(Program, TakesTheLogLevelOfRos) {
+  const auto level_of = [](const std::vector<std::string>& words) {
+    ProgramOptions options;
+    EXPECT_EQ(read_options(bracket(words), options), "");
+    return options.log_level;
+  };
+  EXPECT_EQ(level_of({}), "info");
+  EXPECT_EQ(level_of({"--ros-args", "--log-level", "warn"}), "warning");
+  EXPECT_EQ(level_of({"--log-level", "debug", "--ros-args", "--log-level", "warn"}), "debug");
 }
 
 // Parameters mean what the options mean; the help lists them.

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "host/active/views.h"
 #include "host/cli/common_arguments.h"
@@ -63,7 +64,20 @@ void add_options(CLI::App& app, ProgramOptions& o) {
   add_detection_options(app, o.templates, o.bridge.pipeline);
 }
 
-// Names where a parameter stands that does not exist.
+// A list where one value is meant would be read as further arguments, and a flag as a count.
+void require_fitting(const CLI::Option& option, const std::string& name,
+                     const Parameter& parameter) {
+  const int most = option.get_items_expected_max();
+  const bool is_flag = most == 0;
+  const std::size_t count = parameter.values.size();
+  if (count > std::size_t(std::max(most, 1)))
+    throw InputError(parameter.source, name, "a list of " + std::to_string(count) + " values",
+                     most > 1 ? std::to_string(most) + " at most" : "one value");
+  if (is_flag && !is_truth_value(parameter.values[0]))
+    throw InputError(parameter.source, name, parameter.values[0], "true or false");
+}
+
+// Names where a parameter stands that does not exist or has no fitting value.
 void require_known(const CLI::App& app, const Parameters& parameters, const std::string& prefix) {
   for (const auto& [name, parameter] : parameters) {
     const bool has_prefix = name.find('.') != std::string::npos;
@@ -75,8 +89,10 @@ void require_known(const CLI::App& app, const Parameters& parameters, const std:
     if (has_prefix && prefix.empty()) continue;
     std::string option = name.substr(prefix.size());
     std::ranges::replace(option, '_', '-');
-    if (!app.get_option_no_throw("--" + option))
+    const CLI::Option* known = app.get_option_no_throw("--" + option);
+    if (!known)
       throw InputError(parameter.source, name, "an unknown parameter", "one of --help-all");
+    require_fitting(*known, name, parameter);
   }
 }
 
@@ -102,6 +118,15 @@ void name_options_as_given(const std::vector<std::string>& words) {
 void parse(CLI::App& app, std::vector<std::string> arguments) {
   std::ranges::reverse(arguments);  // what CLI11 asks for
   app.parse(std::move(arguments));
+}
+
+// "Could not convert: --center = a" -> "--center: found a, expected a value of its type"
+std::string naming_option_first(const std::string& message) {
+  constexpr std::string_view conversion = "Could not convert: ", middle = " = ";
+  const std::size_t end = message.find(middle);
+  if (!message.starts_with(conversion) || end == std::string::npos) return message;
+  return message.substr(conversion.size(), end - conversion.size()) + ": found " +
+         message.substr(end + middle.size()) + ", expected a value of its type";
 }
 
 // "--candidates: found 0" -> "p.yaml: candidates: found 0" where that file says so.
@@ -164,7 +189,7 @@ std::string read_options(const std::vector<std::string>& arguments, ProgramOptio
     app.exit(text, printed, printed);
     return printed.str();
   } catch (const CLI::ParseError& error) {
-    throw InputError(naming_parameters(error.what(), parameters));
+    throw InputError(naming_parameters(naming_option_first(error.what()), parameters));
   }
   refuse_beside_templates(app);
   finish(options);
