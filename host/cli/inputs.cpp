@@ -80,6 +80,7 @@ void add_video(const fs::path& video, const InputOptions& options,
   for (std::size_t i = 0; i < images.size(); ++i)
     if (!images[i].video.empty() && (i == 0 || images[i].video != images[i - 1].video)) ++scene_id;
   const int count = count_frames(video);
+  const double frame_rate = stated_frame_rate(video);
   const auto frames = images.empty() || !images.back().frames ? std::make_shared<VideoReader>()
                                                               : images.back().frames;
   for (int frame = options.first_frame; frame < count && frame <= options.last_frame;
@@ -91,6 +92,7 @@ void add_video(const fs::path& video, const InputOptions& options,
     image.name = fmt::format("{}_{:06}", video.stem().string(), frame);
     image.video = video;
     image.frame = frame;
+    image.frame_rate = frame_rate;
     image.frames = frames;
   }
   if (options.first_frame >= count)

@@ -43,6 +43,7 @@ struct InputImage {
   // "a.avi#000012".
   std::filesystem::path video = {};
   int frame = 0;
+  double frame_rate = 0;                     // Hz, as the video's header says; 0: it does not
   std::shared_ptr<VideoReader> frames = {};  // shared by all frames
 };
 

@@ -13,6 +13,12 @@ std::string described(const StartPose& pose) {
   return pose.image.empty() ? fmt::format("image {}", pose.image_id) : pose.image.string();
 }
 
+// How a start of the same form would name another image: "parts.avi#000000" for a video's frame.
+std::string name_in_poses(const StartPose& form, const InputImage& image) {
+  return form.image.empty() ? fmt::format("image {}", image.image_id)
+                            : image.file.filename().string();
+}
+
 // Returns the image of a start; nothing if the start's scene is not among the images.
 std::optional<std::size_t> image_of(const StartPose& pose, std::span<const InputImage> images,
                                     const std::string& poses_file) {
@@ -41,7 +47,8 @@ std::optional<std::size_t> image_of(const StartPose& pose, std::span<const Input
                          : "one that fits a single image: --cameras chooses cameras");
   if (!found.empty()) return found[0];
   if (scene_is_given)
-    throw InputError(poses_file, "image", described(pose), "one of the images given");
+    throw InputError(poses_file, "image", described(pose),
+                     "one of the images given, such as " + name_in_poses(pose, images.front()));
   return std::nullopt;
 }
 

@@ -107,7 +107,8 @@ void add_options(CLI::App& verb, TrackArguments& arguments) {
             "Search for nothing: follow the given poses until they are lost")
       .bounded("search-every", request.search_every, 1, 1'000'000,
                "Search for missing objects in every Nth frame")
-      .bounded("frame-rate", request.frame_rate, 0.001, 1e6, "Frames a second")
+      .bounded("frame-rate", request.frame_rate, 0.0, 1e6,
+               "Frames a second, for the column time_s; 0: as a video's file says, else 30")
       .flag("no-overlays", arguments.no_overlays, "Write no overlay pictures");
   add_max_seconds(verb, request.max_seconds);
   add_scale_camera(verb, request.scale_camera);

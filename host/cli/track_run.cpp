@@ -77,6 +77,15 @@ class SequenceRunner {
  private:
   GivenCamera given() const { return {camera_, request_.calibration.file, request_.scale_camera}; }
 
+  // A video's frames keep their times, whichever are chosen.
+  double time_of(const InputImage& input, int frame) const {
+    constexpr double usual_rate = 30;
+    const double rate = request_.frame_rate > 0 ? request_.frame_rate
+                        : input.frame_rate > 0  ? input.frame_rate
+                                                : usual_rate;
+    return (input.video.empty() ? frame : input.frame) / rate;
+  }
+
   void step(const InputImage& input, int frame, std::optional<Tracker>& tracker) {
     const auto image = std::make_shared<const Image>(read_image(input));
     if (!tracker) {
@@ -86,7 +95,7 @@ class SequenceRunner {
     if (const auto starts = starts_.find(input.name); starts != starts_.end())
       for (const RegisterJob::Start& start : *starts->second)
         tracker->add(start.model, start.camera_from_object);
-    const TrackFrame at{image, frame / request_.frame_rate,
+    const TrackFrame at{image, time_of(input, frame),
                         depth_.read(input, sequence_camera_, backend_.threads())};
     if (request_.search && frame % request_.search_every == 0)
       tracker->search(at, backend_, limit_from_now(request_.max_seconds));

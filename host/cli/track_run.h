@@ -20,7 +20,7 @@ struct TrackRequest {
   bool search = true;      // for objects that are lost or not yet found
   int search_every = 15;   // frames
   double max_seconds = 0;  // of each search; 0: no limit
-  double frame_rate = 30;  // Hz
+  double frame_rate = 0;   // Hz; 0: as a video's header says, else 30
   DepthArguments depth;
   TrackOptions tracking;
 };

@@ -81,6 +81,11 @@ int count_frames(const fs::path& video) {
   return count;
 }
 
+double stated_frame_rate(const fs::path& video) {
+  const double rate = open_video(video).get(cv::CAP_PROP_FPS);
+  return rate > 0 && std::isfinite(rate) ? rate : 0;
+}
+
 struct VideoReader::Open {
   fs::path video;
   cv::VideoCapture capture;

@@ -17,6 +17,9 @@ bool has_video_extension(const std::filesystem::path& file);
 // header promises more. InputError: the file is missing or no frame can be read.
 int count_frames(const std::filesystem::path& video);
 
+// Frames a second as the header says; 0: it does not. InputError as count_frames.
+double stated_frame_rate(const std::filesystem::path& video);
+
 // Reads frames forward, and from the start again where an earlier one is asked for: to leap to a
 // frame is not exact in most formats. Holds one file open. May be used by several threads.
 class VideoReader {

@@ -39,6 +39,7 @@ TEST(ListImages, TakesChosenFramesOfVideosUnderTheSameNames) {
     EXPECT_NEAR(read_image(images[i]).at(9, 9), 20 + 10 * expected_frames[i], 3);
   }
   EXPECT_EQ(images[1].name, "a_000004");
+  EXPECT_EQ(images[1].frame_rate, 25);
   EXPECT_EQ(images[1].file, folder.path() / "a.avi#000004");
   EXPECT_EQ(images[3].name, "b_000001");
   options.first_frame = 4;

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
 #include <sstream>
 
 #include "host/io/image.h"
@@ -139,6 +140,46 @@ TEST(Track, RefusesDepthThatDoesNotFit) {
   const Outcome other_size = sequence.track({"--depth", small.string()});
   EXPECT_EQ(other_size.exit_code, 2);
   EXPECT_NE(other_size.err.find("depth-camera"), std::string::npos) << other_size.err;
+}
+
+// Poses name a frame by the video's name and its number; every second frame keeps its time.
+TEST(Track, FollowsAnObjectThroughAVideo) {
+  const Sequence sequence(5);
+  const fs::path video = sequence.folder.path() / "parts.avi";
+  cv::VideoWriter writer(video.string(), cv::CAP_OPENCV_MJPEG,
+                         cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 25, {640, 480});
+  for (int f = 0; f < 5; ++f)
+    writer << cv::imread((sequence.images() / ("frame" + std::to_string(f) + ".png")).string());
+  writer.release();
+  const auto track = [&](const std::string& image, const std::vector<std::string>& more = {}) {
+    nlohmann::json start =
+        nlohmann::json::parse(std::ifstream(sequence.folder.path() / "starts.json"))[0];
+    start["image"] = image;
+    const std::string poses = sequence.folder.write("video.json", nlohmann::json{start}.dump());
+    return run_program(joined(
+        {{"track", video.string(), "--model", part_file(2), "--unit", "mm", "--camera",
+          (sequence.folder.path() / "camera.json").string(), "--poses", poses, "--no-search",
+          "--no-overlays", "--device", "cpu", "--every", "2", "--out", sequence.out().string()},
+         more}));
+  };
+  const Outcome outcome = track("parts.avi#000000");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  auto rows = sequence.rows();
+  ASSERT_EQ(rows.size(), 3u);
+  for (std::size_t f = 0; f < rows.size(); ++f) {
+    EXPECT_NEAR(std::stod(rows[f][3]), 2 * double(f) / 25, 1e-6) << f;
+    EXPECT_NE(rows[f][6], "lost") << f;
+  }
+  ASSERT_EQ(track("parts.avi#000000", {"--frame-rate", "100"}).exit_code, 0);
+  rows = sequence.rows();
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_NEAR(std::stod(rows[2][3]), 0.04, 1e-6);
+  const Outcome refused = track("parts.avi");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("found parts.avi, expected one of the images given, such as "
+                             "parts.avi#000000"),
+            std::string::npos)
+      << refused.err;
 }
 
 TEST(Track, RefusesRequestsThatCannotBeMet) {

@@ -41,6 +41,7 @@ TEST(Video, GivesTheFramesInAnyOrder) {
   ImageOptions options;
   options.black_white = {0, 2.0 * grey_of(3)};
   EXPECT_NEAR(reader.frame(other, 3, options).at(30, 20), 127, 6);
+  EXPECT_EQ(stated_frame_rate(video), 25);
   EXPECT_EQ(name_of_frame("x/a.avi", 12), "x/a.avi#000012");
 }
 
