@@ -4,7 +4,7 @@
 #   libedgescout-dev  headers, what find_package and pkg-config read, documents
 #   edgescout         the program, its manual pages and the completion of its options in bash
 #   python3-edgescout the Python package
-#   edgescout-ros2    the ROS 2 node
+#   edgescout-ros2    the ROS 2 node, and edgescout_msgs, the types of its requests
 #
 # A part that was left out of the build (a library it needs is missing) gets no package.
 set(CPACK_GENERATOR DEB)

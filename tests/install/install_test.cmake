@@ -44,6 +44,11 @@ run(${WORK_DIR}/build/consumer ${examples}/scenes/000000 ${examples}/parts/obj_0
 run(${WORK_DIR}/build/find_part ${examples}/scenes/000000/gray/000000.png
     ${examples}/scenes/000000/scene_camera.json ${examples}/parts/obj_000001.ply 0.32 0.36)
 run(${WORK_DIR}/prefix/bin/edgescout --version)
+# docs/robot.md copies the types of the requests from here.
+if(EXISTS ${WORK_DIR}/prefix/bin/edgescout_ros2 AND
+   NOT EXISTS ${WORK_DIR}/prefix/share/edgescout/edgescout_msgs/package.xml)
+  message(FATAL_ERROR "edgescout_msgs is not installed")
+endif()
 
 # The pages on the interfaces show the programs as they are.
 foreach(shown "cpp_api.md;embedding/find_part.cpp" "c.md;c/find_part.c")
