@@ -76,17 +76,18 @@ std::optional<Crop> crop_around(const SearchedImage& image, const EdgeModel& mod
 
 std::optional<Detection> register_in_crop(const SearchedImage& image, const EdgeModel& model,
                                           std::span<const Se3> starts, Backend& backend,
-                                          const TrackOptions& options) {
+                                          const TrackOptions& options, const TimeLimit& limit) {
+  if (limit.is_over()) return std::nullopt;
   const std::optional<Crop> crop = crop_around(image, model, starts.front());
   if (!crop) return std::nullopt;
   ObjectView view = prepare_view(crop->image, crop->camera, Se3{}, backend, options.pipeline);
   if (image.depth) view.depth = seen_from(*image.depth, image.ideal, view.camera);
   std::vector<ObjectPose> poses;
   for (const Se3& start : starts) poses.push_back({0, start});
-  const RegisterObjectsOptions registration{options.pipeline.tensor, options.refine, {}};
-  std::vector<Detection> found =
-      register_objects({&view, 1}, {&model, 1}, poses, backend, registration).detections;
-  return *std::ranges::max_element(found, {}, &Detection::probability);
+  const RegisterObjectsOptions registration{options.pipeline.tensor, options.refine, limit};
+  const Detections found = register_objects({&view, 1}, {&model, 1}, poses, backend, registration);
+  if (found.completion != Completion::Complete) return std::nullopt;
+  return *std::ranges::max_element(found.detections, {}, &Detection::probability);
 }
 
 }  // namespace edgescout

@@ -23,9 +23,10 @@ std::optional<Crop> crop_around(const SearchedImage& image, const EdgeModel& mod
                                 const Se3& camera_from_object);
 
 // The most probable of the poses registered from the starts (all in the camera frame) in the
-// surroundings of the first one. Empty where the object is not in the image.
+// surroundings of the first one. Empty where the object is not in the image, or the limit was over
+// before they were registered.
 std::optional<Detection> register_in_crop(const SearchedImage& image, const EdgeModel& model,
                                           std::span<const Se3> starts, Backend& backend,
-                                          const TrackOptions& options);
+                                          const TrackOptions& options, const TimeLimit& limit = {});
 
 }  // namespace edgescout

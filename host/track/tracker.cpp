@@ -105,10 +105,11 @@ struct Tracker::State {
   int keep_found(std::span<const Detection> detections, int object, int most,
                  std::span<const Track> known);
   std::shared_ptr<const Occluders> occluders_of(const Instance& instance, double time_s) const;
-  void follow(Instance& instance, const SearchedImage& image, double time_s);
+  void follow(Instance& instance, const SearchedImage& image, double time_s,
+              const TimeLimit& limit);
   void update_track(Instance& instance, const FollowedPose& found, double time_s);
   std::optional<FollowedPose> registered(const Instance& instance, const SearchedImage& image,
-                                         std::span<const Se3> starts) const;
+                                         std::span<const Se3> starts, const TimeLimit& limit) const;
   void publish();
 };
 
@@ -227,9 +228,11 @@ std::shared_ptr<const Occluders> Tracker::State::occluders_of(const Instance& in
 
 std::optional<FollowedPose> Tracker::State::registered(const Instance& instance,
                                                        const SearchedImage& image,
-                                                       std::span<const Se3> starts) const {
+                                                       std::span<const Se3> starts,
+                                                       const TimeLimit& limit) const {
   const EdgeModel& model = models[std::size_t(instance.track.object)];
-  const std::optional<Detection> found = register_in_crop(image, model, starts, backend, options);
+  const std::optional<Detection> found =
+      register_in_crop(image, model, starts, backend, options, limit);
   if (!found || found->probability < options.min_probability) return std::nullopt;
   const EdgeFollower follower(model, backend, options, nullptr);
   return FollowedPose{found->world_from_object,
@@ -258,7 +261,8 @@ void Tracker::State::update_track(Instance& instance, const FollowedPose& found,
                                                                   : TrackState::Doubtful;
 }
 
-void Tracker::State::follow(Instance& instance, const SearchedImage& image, double time_s) {
+void Tracker::State::follow(Instance& instance, const SearchedImage& image, double time_s,
+                            const TimeLimit& limit) {
   const EdgeModel& model = models[std::size_t(instance.track.object)];
   const std::shared_ptr<const Occluders> occluders = occluders_of(instance, time_s);
   const EdgeFollower follower(model, backend, options, occluders.get());
@@ -269,7 +273,7 @@ void Tracker::State::follow(Instance& instance, const SearchedImage& image, doub
   FollowedPose found = follower.follow(image, starts, earlier ? &*earlier : nullptr);
   if (options.register_doubtful && !is_on_object(found.fit, options)) {
     const std::array from{starts[0], starts[1], found.camera_from_object};
-    const std::optional<FollowedPose> better = registered(instance, image, from);
+    const std::optional<FollowedPose> better = registered(instance, image, from, limit);
     if (better && is_better(better->fit, found.fit)) found = *better;
   }
   update_track(instance, found, time_s);
@@ -302,7 +306,7 @@ void Tracker::remove(int id) {
 
 const std::vector<Track>& Tracker::tracks() const { return state_->tracks; }
 
-const std::vector<Track>& Tracker::update(const TrackFrame& frame) {
+const std::vector<Track>& Tracker::update(const TrackFrame& frame, const TimeLimit& limit) {
   State& state = *state_;
   const Exclusive exclusive(state.in_update);
   state.require(frame);
@@ -311,8 +315,10 @@ const std::vector<Track>& Tracker::update(const TrackFrame& frame) {
                      fmt::format("later than the last frame, {} s", *state.last_time_s));
   const SearchedImage image = searched(*frame.image, state.camera, frame.depth.get());
   state.join_found();
+  const TimeLimit latching = latched(limit);
   for (State::Instance& instance : state.instances)
-    if (instance.track.state != TrackState::Lost) state.follow(instance, image, frame.time_s);
+    if (instance.track.state != TrackState::Lost)
+      state.follow(instance, image, frame.time_s, latching);
   state.last_image = frame.image;
   state.last_time_s = frame.time_s;
   state.publish();

@@ -52,5 +52,23 @@ TEST(CroppedRegistration, FindsThePoseFromOneTurnedAndShifted) {
   EXPECT_GT(found->probability, 0.4);
 }
 
+TEST(CroppedRegistration, IsEmptyWhereItsLimitIsOverBeforeTheEnd) {
+  ThreadPool pool(1);
+  const Se3 truth = pose_at(0.02, 0.4);
+  const Image image = test::flat_image(part.mesh, truth, pool);
+  const auto backend = make_backend("cpu");
+  const auto with = [&](const TimeLimit& limit) {
+    return register_in_crop(searched(image, test::flat_camera()), model, {&truth, 1}, *backend, {},
+                            limit);
+  };
+  int asked = 0;
+  EXPECT_TRUE(with({{}, [&] { return ++asked < 0; }}));
+  EXPECT_GT(asked, 1);
+  const int in_all = asked;
+  asked = 0;
+  EXPECT_FALSE(with({{}, [&] { return ++asked > in_all / 2; }}));
+  EXPECT_FALSE(with({{}, [] { return true; }}));
+}
+
 }  // namespace
 }  // namespace edgescout

@@ -133,6 +133,31 @@ TEST_F(TrackerTest, FindsALostPartAgainInAnotherThread) {
   EXPECT_EQ(tracker.tracks().size(), 1u);
 }
 
+// Where the limit is over, an update is as one that registers nothing.
+TEST_F(TrackerTest, TheLimitOfAnUpdateEndsTheRegistrationOfDoubtfulPoses) {
+  TrackOptions no_registration;
+  no_registration.register_doubtful = false;
+  bool has_registered = false;
+  for (const double scale : {1.0, 2.0, 3.0, 4.0}) {
+    Vector6d off;
+    off << 0.004, -0.003, 0.007, 0.08, -0.06, 0.07;
+    const auto updated = [&](const TrackOptions& options, const TimeLimit& limit) {
+      Tracker tracker(sets, camera, *backend, options);
+      tracker.add(0, retract(pose_at(0), scale * off));
+      return tracker.update(frame(0), limit)[0];
+    };
+    const Track plain = updated(no_registration, {}), whole = updated({}, {});
+    for (const TimeLimit& limit : {TimeLimit{{}, [] { return true; }}, TimeLimit::after(0)}) {
+      const Track limited = updated({}, limit);
+      EXPECT_EQ(limited.state, plain.state) << scale;
+      EXPECT_EQ(limited.world_from_object.translation_m, plain.world_from_object.translation_m);
+      EXPECT_EQ(limited.above_chance, plain.above_chance) << scale;
+    }
+    has_registered |= plain.state != TrackState::Tracked && whole.state == TrackState::Tracked;
+  }
+  EXPECT_TRUE(has_registered) << "no pose needs the registration";
+}
+
 TEST_F(TrackerTest, ASearchEndsWithItsLimit) {
   TemplateOptions templates;
   templates.distance_min_m = 0.39;
