@@ -74,11 +74,11 @@ class Tracker {
   void remove(int id);
 
   // Follows and returns all instances in the new image, in the order of their ids. Objects hide
-  // each other as far as their poses say. The limit ends the registration of doubtful poses, which takes most of the
-  // time (docs/tracking.md): they then stay doubtful, with what the search along the normals found.
-  // Edges and tensor of a registration that was begun are completed. InputError: an image of
-  // another size than the camera's, or not later than the last one; depth of another size.
-  // LogicError: while another thread is in a call other than search().
+  // each other as far as their poses say. The limit ends the registration of doubtful poses, which
+  // takes most of the time (docs/tracking.md): they then stay doubtful, with what the search along
+  // the normals found. Edges and tensor of a registration that was begun are completed. InputError:
+  // an image of another size than the camera's, or not later than the last one; depth of another
+  // size. LogicError: while another thread is in a call other than search().
   const std::vector<Track>& update(const TrackFrame& frame, const TimeLimit& limit = {});
 
   // Looks for instances that are lost or not yet found, until the limit is over; returns how many
