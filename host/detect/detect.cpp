@@ -85,7 +85,7 @@ class Cascade {
     return register_coarsely(scene_of(views_), starts, [&](const Scene& on_level, auto poses) {
       const auto find_points = [&](std::span<const ObjectPose> at, const D2coRound& round) {
         return template_points(set_, on_level.views, at,
-                               {round.max_points, round.max_surface_points}, backend_);
+                               {round.max_points, round.max_surface_points, true}, backend_);
       };
       return register_points(on_level, poses, find_points, options_.coarse);
     });

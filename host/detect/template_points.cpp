@@ -39,11 +39,11 @@ class EdgeLookup {
     });
   }
 
-  PointsInViews<ModelPoint> points(int most) const {
-    const SharedLists shared = share_lists();
+  PointsInViews<ModelPoint> points(const WantedPoints& wanted) const {
+    const SharedLists shared = share_lists(wanted.in_image);
     std::vector<std::vector<ModelPoint>> lists(shared.first_pair.size());
     for_each_in_chunks(threads_, lists.size(), 16, [&](std::size_t l) {
-      lists[l] = points_of_pair(shared.first_pair[l], most);
+      lists[l] = points_of_pair(shared.first_pair[l], wanted);
     });
     JoinedLists<ModelPoint> joined = join_lists(
         lists.size(), [&](std::size_t l) -> const auto& { return lists[l]; }, 0, threads_);
@@ -60,19 +60,20 @@ class EdgeLookup {
   }
 
   // What occluders hide and what lies outside the image differ from pair to pair.
-  bool is_own(std::size_t pair) const {
+  bool has_own(std::size_t pair, bool in_image) const {
     const ObjectView& view = view_of(pair);
-    return view.occluders || !is_wholly_in(*view.tensor, set_.model, camera_from_object(pair));
+    return view.occluders ||
+           (in_image && !is_wholly_in(view.camera, set_.model, camera_from_object(pair)));
   }
 
-  SharedLists share_lists() const {
+  SharedLists share_lists(bool in_image) const {
     constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
     std::vector<std::size_t> known(set_.views.size() * set_.symmetries.discrete.size(), none);
     SharedLists lists;
     for (std::size_t pair = 0; pair < nearest_.size(); ++pair) {
       std::size_t own = none;
       std::size_t& list =
-          is_own(pair)
+          has_own(pair, in_image)
               ? own
               : known[nearest_[pair].symmetry * set_.views.size() + nearest_[pair].viewpoint];
       if (list == none) {
@@ -84,14 +85,15 @@ class EdgeLookup {
     return lists;
   }
 
-  std::vector<ModelPoint> points_of_pair(std::size_t pair, int most) const {
-    std::vector<ModelPoint> points = thinned(set_.views[nearest_[pair].viewpoint].points, most);
+  std::vector<ModelPoint> points_of_pair(std::size_t pair, const WantedPoints& wanted) const {
+    std::vector<ModelPoint> points =
+        thinned(set_.views[nearest_[pair].viewpoint].points, wanted.edges);
     for (ModelPoint& point : points)
       point = transformed(viewpoints_.symmetry(nearest_[pair].symmetry), point);
     if (view_of(pair).occluders)
       remove_hidden(points, *view_of(pair).occluders, camera_from_object(pair),
                     occlusion_tolerance_m(set_.model));
-    remove_outside(points, *view_of(pair).tensor, camera_from_object(pair));
+    if (wanted.in_image) remove_outside(points, view_of(pair).camera, camera_from_object(pair));
     return points;
   }
 
@@ -123,10 +125,10 @@ PointsInViews<SurfacePoint> surface(const EdgeModel& model, std::span<const Obje
 }  // namespace
 
 VisiblePoints template_points(const TemplateSet& set, std::span<const ObjectView> views,
-                              std::span<const ObjectPose> poses, const MostPoints& most,
+                              std::span<const ObjectPose> poses, const WantedPoints& wanted,
                               Backend& backend) {
-  return {EdgeLookup(set, views, poses, backend.threads()).points(most.edges),
-          surface(set.model, views, poses.size(), most.surface)};
+  return {EdgeLookup(set, views, poses, backend.threads()).points(wanted),
+          surface(set.model, views, poses.size(), wanted.surface)};
 }
 
 }  // namespace edgescout

@@ -8,17 +8,19 @@
 
 namespace edgescout {
 
-struct MostPoints {  // of a pose in a view, evenly thinned; 0: all
-  int edges = 0, surface = 0;
+struct WantedPoints {
+  int edges = 0, surface = 0;  // at most of a pose in a view, evenly thinned; 0: all
+  bool in_image = false;       // only edges that project into the image
 };
 
 // Of poses of the set's object. Edges are the points of the viewpoint nearest to each view's,
 // without those that the view's occluders hide. Pairs of a pose and a view without occluders share
-// them. Points may project outside the image: they count as far from every edge. Otherwise poses
-// that reach over the border would have less to fit. Views with depth also get samples of the whole
-// surface, of which the far ones do not count: they face away.
+// them. Registration wants those in the image (points_in_image.h). Support wants all: points
+// outside count as far from every edge; otherwise poses beyond the border would have less to
+// explain. Views with depth also get samples of the whole surface, of which the far ones do not
+// count: they face away.
 VisiblePoints template_points(const TemplateSet& set, std::span<const ObjectView> views,
-                              std::span<const ObjectPose> poses, const MostPoints& most,
+                              std::span<const ObjectPose> poses, const WantedPoints& wanted,
                               Backend& backend);
 
 }  // namespace edgescout

@@ -3,7 +3,9 @@
 #include "host/detect/template_points.h"
 #include "host/register/depth_evidence.h"
 #include "host/register/edge_support.h"
+#include "host/register/points_in_image.h"
 #include "host/register/pose_classifier.h"
+#include "kernels/template_score.h"
 #include "kernels/thread_pool.h"
 
 namespace edgescout {
@@ -17,6 +19,30 @@ Grid<ShownEdges> shown_edges(const PointsInViews<ModelPoint>& edges) {
         return ShownEdges{std::span(edges.points).subspan(range.first, range.count), {}};
       });
   return shown;
+}
+
+// What a point outside the image counts. In one image as much as in the scan. Among several as much
+// as in an image without edges, since poses must not gain by leaving such an image.
+double outside_px(const Scene& scene, const ObjectView& view) {
+  return scene.views.size() > 1 ? view.tensor->options.cap_px : TEMPLATE_SCORE_CAP / 4.0;
+}
+
+// The mean residual with the points outside the images, which registration leaves out
+// (points_in_image.h).
+double mean_px_with_outside(double mean_px, const PointsInViews<ModelPoint>& edges, std::size_t p,
+                            const Scene& scene, const Se3& world_from_object) {
+  double all = 0, outside = 0, sum_px = 0;
+  for (std::size_t v = 0; v < scene.views.size(); ++v) {
+    const ObjectView& view = scene.views[v];
+    const PointRange& range = edges.ranges(p, v);
+    const double count =
+        double(count_outside(std::span(edges.points).subspan(range.first, range.count), view.camera,
+                             view.camera_from_world * world_from_object));
+    all += range.count;
+    outside += count;
+    sum_px += count * outside_px(scene, view);
+  }
+  return all > 0 ? ((all - outside) * mean_px + sum_px) / all : mean_px;
 }
 
 }  // namespace
@@ -38,7 +64,8 @@ std::vector<PoseFeatures> template_support(const TemplateSet& set, const Scene& 
       by_view[v].points = by_view[v].visible = double(visible.edges.ranges(p, v).count);
     }
     pooled[p] = pool_over_views(by_view);
-    pooled[p].mean_px = poses[p].mean_px;
+    pooled[p].mean_px = mean_px_with_outside(poses[p].mean_px, visible.edges, p, scene,
+                                             placed[p].world_from_object);
   });
   return pooled;
 }

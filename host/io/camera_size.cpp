@@ -145,11 +145,12 @@ void read_size(CameraFields& fields, Camera& camera) {
   const bool height_first = fields.has_spelt("ImageSize") || fields.has_spelt("K");
   if (const auto listed = fields.take(
           {"resolution", "imagesize", "imgsize", "imsize", "size", "imageresolution", "imageshape",
-           "shape", "imgshape", "imagedimension", "imagedimensions", "imagedims", "dim", "dims"}))
+           "shape", "imgshape", "imagedimension", "imagedimensions", "imagedims", "dim", "dims"})) {
     if (!width && !height)
       set_listed_size(camera, *listed, height_first);
     else if (width && height && camera.width > 0 && camera.height > 0 && is_of(fields, *listed))
       require_same_size(camera, *listed);
+  }
   if ((camera.width == 0) != (camera.height == 0))
     throw InputError(fields.source(), fields.at(camera.width ? "image_height" : "image_width"),
                      "nothing", "both sizes or neither");

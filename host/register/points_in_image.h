@@ -5,19 +5,24 @@
 // points of a part that the border cuts would pull the part inwards, and away from the camera.
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "host/core/camera.h"
 #include "host/core/se3.h"
 #include "host/model/edge_model.h"
-#include "kernels/backend.h"
 
 namespace edgescout {
 
 // Whether the sphere around the object projects into the image as a whole.
-bool is_wholly_in(const BackendView& image, const EdgeModel& model, const Se3& camera_from_object);
+bool is_wholly_in(const Camera& camera, const EdgeModel& model, const Se3& camera_from_object);
+
+// How many of the points `remove_outside` would remove.
+std::size_t count_outside(std::span<const ModelPoint> points, const Camera& camera,
+                          const Se3& camera_from_object);
 
 // Removes the points that project outside of the image or do not lie in front of the camera.
-void remove_outside(std::vector<ModelPoint>& points, const BackendView& image,
+void remove_outside(std::vector<ModelPoint>& points, const Camera& camera,
                     const Se3& camera_from_object);
 
 }  // namespace edgescout
