@@ -27,8 +27,8 @@ double outside_px(const Scene& scene, const ObjectView& view) {
   return scene.views.size() > 1 ? view.tensor->options.cap_px : TEMPLATE_SCORE_CAP / 4.0;
 }
 
-// The mean residual with the points outside the images, which registration leaves out
-// (points_in_image.h).
+// The mean residual with the points outside the images, which registration leaves out unless they
+// are more than half (points_in_image.h).
 double mean_px_with_outside(double mean_px, const PointsInViews<ModelPoint>& edges, std::size_t p,
                             const Scene& scene, const Se3& world_from_object) {
   double all = 0, outside = 0, sum_px = 0;
@@ -42,7 +42,7 @@ double mean_px_with_outside(double mean_px, const PointsInViews<ModelPoint>& edg
     outside += count;
     sum_px += count * outside_px(scene, view);
   }
-  return all > 0 ? ((all - outside) * mean_px + sum_px) / all : mean_px;
+  return all > 0 && 2 * outside <= all ? ((all - outside) * mean_px + sum_px) / all : mean_px;
 }
 
 }  // namespace

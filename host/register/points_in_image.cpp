@@ -38,6 +38,7 @@ std::size_t count_outside(std::span<const ModelPoint> points, const Camera& came
 
 void remove_outside(std::vector<ModelPoint>& points, const Camera& camera,
                     const Se3& camera_from_object) {
+  if (2 * count_outside(points, camera, camera_from_object) > points.size()) return;
   std::erase_if(
       points, [&](const ModelPoint& point) { return !lies_in(camera, camera_from_object, point); });
 }

@@ -17,11 +17,12 @@ namespace edgescout {
 // Whether the sphere around the object projects into the image as a whole.
 bool is_wholly_in(const Camera& camera, const EdgeModel& model, const Se3& camera_from_object);
 
-// How many of the points `remove_outside` would remove.
+// How many points project outside of the image or do not lie in front of the camera.
 std::size_t count_outside(std::span<const ModelPoint> points, const Camera& camera,
                           const Se3& camera_from_object);
 
-// Removes the points that project outside of the image or do not lie in front of the camera.
+// Removes these points. Where they are more than half, all stay: such a pose is hardly right, and
+// the image holds it.
 void remove_outside(std::vector<ModelPoint>& points, const Camera& camera,
                     const Se3& camera_from_object);
 
