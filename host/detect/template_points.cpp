@@ -93,7 +93,8 @@ class EdgeLookup {
     if (view_of(pair).occluders)
       remove_hidden(points, *view_of(pair).occluders, camera_from_object(pair),
                     occlusion_tolerance_m(set_.model));
-    if (wanted.in_image) remove_outside(points, view_of(pair).camera, camera_from_object(pair));
+    if (wanted.in_image)
+      remove_outside(points, set_.model, view_of(pair).camera, camera_from_object(pair));
     return points;
   }
 

@@ -29,20 +29,21 @@ double outside_px(const Scene& scene, const ObjectView& view) {
 
 // The mean residual with the points outside the images, which registration leaves out unless they
 // are more than half (points_in_image.h).
-double mean_px_with_outside(double mean_px, const PointsInViews<ModelPoint>& edges, std::size_t p,
-                            const Scene& scene, const Se3& world_from_object) {
+double mean_px_with_outside(const PoseEstimate& pose, const PointsInViews<ModelPoint>& edges,
+                            std::size_t p, const Scene& scene, const EdgeModel& model) {
   double all = 0, outside = 0, sum_px = 0;
   for (std::size_t v = 0; v < scene.views.size(); ++v) {
     const ObjectView& view = scene.views[v];
     const PointRange& range = edges.ranges(p, v);
     const double count =
-        double(count_outside(std::span(edges.points).subspan(range.first, range.count), view.camera,
-                             view.camera_from_world * world_from_object));
+        double(count_outside(std::span(edges.points).subspan(range.first, range.count), model,
+                             view.camera, view.camera_from_world * pose.world_from_object));
     all += range.count;
     outside += count;
     sum_px += count * outside_px(scene, view);
   }
-  return all > 0 && 2 * outside <= all ? ((all - outside) * mean_px + sum_px) / all : mean_px;
+  return all > 0 && 2 * outside <= all ? ((all - outside) * pose.mean_px + sum_px) / all
+                                       : pose.mean_px;
 }
 
 }  // namespace
@@ -64,8 +65,7 @@ std::vector<PoseFeatures> template_support(const TemplateSet& set, const Scene& 
       by_view[v].points = by_view[v].visible = double(visible.edges.ranges(p, v).count);
     }
     pooled[p] = pool_over_views(by_view);
-    pooled[p].mean_px = mean_px_with_outside(poses[p].mean_px, visible.edges, p, scene,
-                                             placed[p].world_from_object);
+    pooled[p].mean_px = mean_px_with_outside(poses[p], visible.edges, p, scene, set.model);
   });
   return pooled;
 }

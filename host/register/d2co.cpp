@@ -125,7 +125,8 @@ std::vector<PoseEstimate> register_poses(const Scene& scene, std::span<const Obj
     ThreadPool& threads = scene.backend.threads();
     for_poses(poses.size(), threads, [&](std::size_t p) {
       for (std::size_t v = 0; v < scene.views.size(); ++v)
-        remove_outside(visible(p, v).points, scene.views[v].camera,
+        remove_outside(visible(p, v).points, scene.models[std::size_t(poses[p].object)],
+                       scene.views[v].camera,
                        scene.views[v].camera_from_world * poses[p].world_from_object);
     });
     return VisiblePoints{

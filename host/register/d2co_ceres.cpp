@@ -76,7 +76,7 @@ void add_visible_points(RoundProblem& at_pose, const Scene& scene, const HostVie
                         const VisibilityOptions& visibility) {
   VisibleInView visible = visible_in_views({scene.models, {&view.view, 1}, scene.backend},
                                            {&pose, 1}, visibility)(0, 0);
-  remove_outside(visible.points, view.view.camera,
+  remove_outside(visible.points, scene.models[std::size_t(pose.object)], view.view.camera,
                  view.view.camera_from_world * pose.world_from_object);
   add_edges(at_pose, view, thinned(visible.points, round.max_points));
   add_surface(at_pose, view.view, thinned(visible.surface, round.max_surface_points),

@@ -1,7 +1,8 @@
 #include "host/register/points_in_image.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace edgescout {
 
@@ -29,18 +30,22 @@ bool is_wholly_in(const Camera& camera, const EdgeModel& model, const Se3& camer
   return lies_in(camera, center, stretched * focal_px * model.radius_m / nearest_m);
 }
 
-std::size_t count_outside(std::span<const ModelPoint> points, const Camera& camera,
-                          const Se3& camera_from_object) {
+std::size_t count_outside(std::span<const ModelPoint> points, const EdgeModel& model,
+                          const Camera& camera, const Se3& camera_from_object) {
+  if (is_wholly_in(camera, model, camera_from_object)) return 0;
   return std::size_t(std::ranges::count_if(points, [&](const ModelPoint& point) {
     return !lies_in(camera, camera_from_object, point);
   }));
 }
 
-void remove_outside(std::vector<ModelPoint>& points, const Camera& camera,
+void remove_outside(std::vector<ModelPoint>& points, const EdgeModel& model, const Camera& camera,
                     const Se3& camera_from_object) {
-  if (2 * count_outside(points, camera, camera_from_object) > points.size()) return;
-  std::erase_if(
-      points, [&](const ModelPoint& point) { return !lies_in(camera, camera_from_object, point); });
+  if (is_wholly_in(camera, model, camera_from_object)) return;
+  std::vector<ModelPoint> inside;
+  std::ranges::copy_if(points, std::back_inserter(inside), [&](const ModelPoint& point) {
+    return lies_in(camera, camera_from_object, point);
+  });
+  if (2 * inside.size() >= points.size()) points = std::move(inside);
 }
 
 }  // namespace edgescout
