@@ -23,10 +23,9 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Cholesky>
-
 #include "bench/arguments.h"
 #include "bench/bop_set.h"
+#include "host/core/matrix6.h"
 #include "host/core/pose_error.h"
 #include "host/core/random.h"
 #include "host/detect/detect_options.h"
@@ -123,11 +122,10 @@ struct Error {
 // From that of the equivalent true poses which the covariance makes likeliest. So the error about
 // an axis of symmetry does not count.
 Error error_of(const PoseEstimate& estimate, const Se3& truth, const Symmetries& symmetries) {
-  const Eigen::LDLT<Matrix6d> factor(estimate.covariance);
   Error least;
   for (const Se3& symmetry : symmetries.discrete) {
     const Vector6d error = local_coordinates(estimate.world_from_object, truth * symmetry);
-    const double squared = error.dot(factor.solve(error));
+    const double squared = error.dot(solve(estimate.covariance, error));
     if (squared < least.squared) least = {error, squared};
   }
   return least;

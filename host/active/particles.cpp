@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "host/active/weigh_particles.h"
 #include "host/core/log.h"
+#include "host/core/matrix6.h"
 #include "host/core/order.h"
 #include "host/register/d2co.h"
 #include "host/register/edge_icp.h"
@@ -82,11 +81,11 @@ Se3 perturbed(const Se3& pose, const Matrix6d& covariance, const EdgeModel& mode
   Vector6d deviations = Vector6d::Constant(spread.max * diameter_m);
   Matrix6d axes = Matrix6d::Identity();
   if (covariance.allFinite()) {
-    const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(
-        metres.asDiagonal() * covariance_about(pose, model.center_m, covariance) *
-        metres.asDiagonal());
-    axes = solver.eigenvectors();
-    deviations = (spread.of_deviation * solver.eigenvalues().cwiseMax(0).cwiseSqrt())
+    const Eigenvectors6 principal =
+        eigenvectors(metres.asDiagonal() * covariance_about(pose, model.center_m, covariance) *
+                     metres.asDiagonal());
+    axes = principal.vectors;
+    deviations = (spread.of_deviation * principal.values.cwiseMax(0).cwiseSqrt())
                      .cwiseMax(spread.min * diameter_m)
                      .cwiseMin(spread.max * diameter_m);
   }

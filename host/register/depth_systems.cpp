@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include <Eigen/LU>
-
+#include "host/core/matrix6.h"
 #include "host/register/measured_depth.h"
 
 namespace edgescout {
@@ -57,8 +56,8 @@ double independent_share(double weight_sum) {
 
 void add_depth_information(Matrix6d& covariance, const Matrix6d& depth_hessian, double weight_sum) {
   if (!(weight_sum > 0) || !covariance.allFinite()) return;
-  const Matrix6d information = covariance.inverse() + independent_share(weight_sum) * depth_hessian;
-  const Matrix6d joined = information.inverse();
+  const Matrix6d information = inverse(covariance) + independent_share(weight_sum) * depth_hessian;
+  const Matrix6d joined = inverse(information);
   if (joined.allFinite()) covariance = 0.5 * (joined + joined.transpose());
 }
 

@@ -4,8 +4,7 @@
 #include <numbers>
 #include <optional>
 
-#include <Eigen/Cholesky>
-
+#include "host/core/matrix6.h"
 #include "host/core/options.h"
 #include "host/core/thinned.h"
 #include "host/register/contested_edges.h"
@@ -106,7 +105,7 @@ class PoseIcp {
         LineSystem system = system_at(at.pose, round);
         if (!enough(system)) return {start};
         system.hessian.diagonal() *= 1 + 1e-4;  // no motion in directions that no edge determines
-        const Vector6d step = -system.hessian.ldlt().solve(system.gradient);
+        const Vector6d step = -solve(system.hessian, system.gradient);
         if (!step.allFinite()) return {start};
         at.pose = retract(at.pose, step);
         at.last_step_px = rms_motion_px(step, system.hessian, system.weight);

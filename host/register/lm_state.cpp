@@ -1,10 +1,9 @@
 #include "host/register/lm_state.h"
+#include "host/core/matrix6.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include <Eigen/Cholesky>
 
 namespace edgescout {
 
@@ -24,7 +23,7 @@ void compute_step(LmState& state) {
   Matrix6d damped = state.system.hessian;
   const double floor = 1e-9 * damped.diagonal().maxCoeff();
   for (int i = 0; i < 6; ++i) damped(i, i) += state.damping * damped(i, i) + floor;
-  state.step = -damped.ldlt().solve(state.system.gradient);
+  state.step = -solve(damped, state.system.gradient);
   if (!state.step.allFinite()) state.step.setZero();
   state.trial = retract(state.pose, state.step);
 }
@@ -95,9 +94,8 @@ WorldSystem& WorldSystem::operator+=(const WorldSystem& other) {
 }
 
 Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance) {
-  const Eigen::LDLT<Matrix6d> factor(hessian);
-  if (factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0)
-    return residual_variance * factor.solve(Matrix6d::Identity());
+  if (const std::optional<Matrix6d> inverse = inverse_of_positive(hessian))
+    return residual_variance * *inverse;
   // Not infinity times the identity: zero times infinity is NaN.
   Matrix6d unknown = Matrix6d::Zero();
   unknown.diagonal().setConstant(std::numeric_limits<double>::infinity());

@@ -1,6 +1,6 @@
 #include "host/track/motion_model.h"
+#include "host/core/matrix6.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 
@@ -60,9 +60,9 @@ void MotionModel::measured(const Se3& camera_from_object, const Matrix6d& covari
   Matrix6d prior = predicted_covariance(seconds);
   const Vector6d off = motion_about(prediction, center_m_, camera_from_object);
   // A motion that surprises both: the object started or stopped, and the prediction counts less.
-  const double surprise = off.dot((prior + measured).ldlt().solve(off)) / 6;
+  const double surprise = off.dot(solve(prior + measured, off)) / 6;
   prior *= std::max(1.0, surprise);
-  const Matrix6d gain = (prior + measured).ldlt().solve(prior).transpose();
+  const Matrix6d gain = solve(prior + measured, prior).transpose();
   pose_ = retract_about(prediction, center_m_, gain * off);
   covariance_ = prior - gain * prior;
   covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();

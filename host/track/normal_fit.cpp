@@ -4,8 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include <Eigen/Cholesky>
-
+#include "host/core/matrix6.h"
 #include "host/model/visible_edges.h"
 #include "host/register/edge_covariance.h"
 #include "host/register/image_motion.h"
@@ -131,7 +130,7 @@ Se3 fit_to_edges(const NormalSearch& search, const Camera& ideal, const Se3& cam
     if (system.matched < thresholds::MIN_POINTS) return camera_from_object;
     if (surface) add_surface(system, surface->system_at(pose, round.depth_sigmas));
     add_prior(system, pose, prior);
-    const Vector6d step = -system.hessian.ldlt().solve(system.gradient);
+    const Vector6d step = -solve(system.hessian, system.gradient);
     if (!step.allFinite()) return camera_from_object;
     pose = retract(pose, step);
     if (is_small(step, min_step_m, min_step_rad)) break;

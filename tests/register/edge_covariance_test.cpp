@@ -1,13 +1,11 @@
 // Simulated errors of edges, compared with the covariance.
 #include "host/register/edge_covariance.h"
+#include "host/core/matrix6.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <vector>
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include "host/register/d2co.h"
 #include "tests/test_random.h"
@@ -58,7 +56,7 @@ Fit least_squares(const Drawn& drawn) {
       gradient += drawn.distances_px[e][i] * drawn.jacobians[e][i];
     }
   Fit fit;
-  fit.error = -hessian.ldlt().solve(gradient);
+  fit.error = -solve(hessian, gradient);
   EdgeCovariance sum;
   double squares = 0;
   int count = 0;
@@ -74,7 +72,7 @@ Fit least_squares(const Drawn& drawn) {
 }
 
 double squared(const Vector6d& error, const Matrix6d& covariance) {
-  return error.dot(covariance.ldlt().solve(error));
+  return error.dot(solve(covariance, error));
 }
 
 struct Mean {
@@ -123,7 +121,7 @@ TEST(EdgeCovariance, IsPositiveWithSevenPointsOnAnEdgeEach) {
   Random random = test_random();
   const Fit fit = least_squares(draw(7, 1, 0.1, 0.1, random));
   ASSERT_TRUE(fit.clustered.allFinite());
-  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6d>(fit.clustered).eigenvalues().minCoeff(), 0);
+  EXPECT_GT(eigenvectors(fit.clustered).values.minCoeff(), 0);
 }
 
 TEST(EdgeCovariance, IsInfiniteWhereNothingHoldsThePose) {

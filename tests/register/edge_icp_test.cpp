@@ -1,5 +1,6 @@
 // Errors of poses after edge ICP in rendered images, compared with their covariance.
 #include "host/register/edge_icp.h"
+#include "host/core/matrix6.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +9,6 @@
 #include <cstdio>
 #include <memory>
 #include <vector>
-
-#include <Eigen/Cholesky>
 
 #include "host/experiments/known_scene.h"
 #include "host/experiments/settings.h"
@@ -98,7 +97,7 @@ std::vector<double> squared_errors(const Rendered& known, std::size_t views, Ran
                                          known.scene.objects[instance.object].symmetries);
     const Vector6d error = local_coordinates(estimate.world_from_object, truth);
     if (error.tail<3>().norm() < 0.05)
-      squared.push_back(error.dot(estimate.covariance.ldlt().solve(error)));
+      squared.push_back(error.dot(solve(estimate.covariance, error)));
   }
   return squared;
 }
