@@ -13,7 +13,7 @@ namespace edgescout {
 
 namespace {
 
-using json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
 constexpr int format_version = 1;
 constexpr std::size_t stage_count = std::size_t(LossStage::Reported);  // that may lose a pose
@@ -165,12 +165,8 @@ int count_of(const Fates& fates) {
   return count;
 }
 
-json pose_json(const Se3& pose) {
-  return {{"R", rotation_numbers(pose)}, {"t", translation_numbers(pose, 1.0)}};
-}
-
-json found_json(const FoundPose& pose, int object) {
-  json fields{{"camera_from_object", pose_json(pose.world_from_object)}};
+ordered_json found_json(const FoundPose& pose, int object) {
+  ordered_json fields{{"camera_from_object", pose_json(pose.world_from_object)}};
   if (pose.object == object) {
     fields["angle_rad"] = pose.error.angle_rad;
     fields["distance_m"] = pose.error.distance_m;
@@ -185,23 +181,23 @@ json found_json(const FoundPose& pose, int object) {
   return fields;
 }
 
-json found_json(const std::optional<FoundPose>& pose, int object) {
-  return pose ? found_json(*pose, object) : json();
+ordered_json found_json(const std::optional<FoundPose>& pose, int object) {
+  return pose ? found_json(*pose, object) : ordered_json();
 }
 
 template <typename T>
-json or_null(const std::optional<T>& value) {
-  return value ? json(*value) : json();
+ordered_json or_null(const std::optional<T>& value) {
+  return value ? ordered_json(*value) : ordered_json();
 }
 
-json range_json(const RangeReport& r) {
+ordered_json range_json(const RangeReport& r) {
   return {{"distance_m", r.distance_m},         {"distance_min_m", r.distance_min_m},
           {"distance_max_m", r.distance_max_m}, {"viewpoint_angle_rad", r.viewpoint_angle_rad},
           {"in_distances", r.in_distances},     {"in_viewpoints", r.in_viewpoints},
           {"in_region", r.in_region},           {"in_prior", r.in_prior}};
 }
 
-json edges_json(const EdgesReport& r) {
+ordered_json edges_json(const EdgesReport& r) {
   return {{"visible", r.visible},
           {"in_image", r.in_image},
           {"log_ratio", r.support.log_ratio},
@@ -209,39 +205,42 @@ json edges_json(const EdgesReport& r) {
           {"best_displaced", r.support.best_displaced}};
 }
 
-json scan_json(const ScanReport& r) {
+ordered_json scan_json(const ScanReport& r) {
   return {{"hits", r.hits},
           {"aligned", r.aligned},
           {"aligned_near", r.aligned_near},
           {"rank", or_null(r.rank)},
-          {"mean_px", r.rank ? json(r.mean_px) : json()},
+          {"mean_px", r.rank ? ordered_json(r.mean_px) : ordered_json()},
           {"own_mean_px", r.own_mean_px}};
 }
 
-json support_json(const SupportReport& r, bool is_aligned_near) {
+ordered_json support_json(const SupportReport& r, bool is_aligned_near) {
   return {{"medium", r.medium},
           {"medium_near", r.medium_near},
-          {"best_near", is_aligned_near ? json(r.best_near) : json()},
+          {"best_near", is_aligned_near ? ordered_json(r.best_near) : ordered_json()},
           {"own", r.own},
           {"last", r.last}};
 }
 
-json ranking_json(const RankingReport& r) {
-  return {{"rank", or_null(r.rank)},        {"candidates", r.candidates},
-          {"is_candidate", r.is_candidate}, {"log_odds", r.rank ? json(r.log_odds) : json()},
-          {"own_log_odds", r.own_log_odds}, {"last_log_odds", r.last_log_odds}};
+ordered_json ranking_json(const RankingReport& r) {
+  return {{"rank", or_null(r.rank)},
+          {"candidates", r.candidates},
+          {"is_candidate", r.is_candidate},
+          {"log_odds", r.rank ? ordered_json(r.log_odds) : ordered_json()},
+          {"own_log_odds", r.own_log_odds},
+          {"last_log_odds", r.last_log_odds}};
 }
 
-json selection_json(const SelectionReport& r, int object) {
+ordered_json selection_json(const SelectionReport& r, int object) {
   return {{"competes", r.competes},
           {"above_chance", r.above_chance},
           {"claimed", r.claimed},
           {"selected", found_json(r.selected, object)},
-          {"rank", r.selected ? json(r.rank) : json()},
+          {"rank", r.selected ? ordered_json(r.rank) : ordered_json()},
           {"is_reported", r.is_reported}};
 }
 
-json stages_json(const LossReport& r, int object) {
+ordered_json stages_json(const LossReport& r, int object) {
   return {{"range", range_json(r.range)},
           {"edges", edges_json(r.edges)},
           {"scan", scan_json(r.scan)},
@@ -258,14 +257,14 @@ json stages_json(const LossReport& r, int object) {
           {"selection", selection_json(r.selection, object)}};
 }
 
-json explained_json(const ExplainedPose& pose) {
+ordered_json explained_json(const ExplainedPose& pose) {
   const int object = pose.given.object;
-  json fields{{"image", pose.image.string()},
-              {"scene_id", pose.scene_id},
-              {"image_id", pose.image_id},
-              {"object_id", pose.object_id},
-              {"camera_from_object", pose_json(pose.given.world_from_object)},
-              {"lost_at", to_string(pose.report.lost_at)}};
+  ordered_json fields{{"image", pose.image.string()},
+                      {"scene_id", pose.scene_id},
+                      {"image_id", pose.image_id},
+                      {"object_id", pose.object_id},
+                      {"camera_from_object", pose_json(pose.given.world_from_object)},
+                      {"lost_at", to_string(pose.report.lost_at)}};
   fields.update(stages_json(pose.report, object));
   fields["rival"] = nullptr;
   if (const std::optional<Rival>& rival = pose.report.rival) {
@@ -273,12 +272,12 @@ json explained_json(const ExplainedPose& pose) {
     fields["rival"]["claimed"] = rival->claimed;
     fields["rival"]["is_restarted"] = rival->is_restarted;
   }
-  fields["picture"] = pose.picture.empty() ? json() : json(pose.picture);
+  fields["picture"] = pose.picture.empty() ? ordered_json() : ordered_json(pose.picture);
   return fields;
 }
 
-json summary_json(std::span<const ExplainedPose> poses) {
-  json summary = json::object();
+ordered_json summary_json(std::span<const ExplainedPose> poses) {
+  ordered_json summary = ordered_json::object();
   for (const auto& [object, fates] : count_fates(poses)) {
     summary[object]["given"] = count_of(fates);
     for (std::size_t s = 0; s <= stage_count; ++s)
@@ -319,14 +318,14 @@ std::string summary_table(std::span<const ExplainedPose> poses) {
   return table;
 }
 
-json json_of(std::span<const ExplainedPose> poses, const SamePoseOptions& same) {
-  json root{{"edgescout_explain", format_version},
-            {"same_pose",
-             {{"max_angle_rad", same.max_angle_rad},
-              {"max_distance_m", same.max_distance_m},
-              {"max_mspd_px", same.max_mspd_px}}},
-            {"summary", summary_json(poses)},
-            {"poses", json::array()}};
+ordered_json json_of(std::span<const ExplainedPose> poses, const SamePoseOptions& same) {
+  ordered_json root{{"edgescout_explain", format_version},
+                    {"same_pose",
+                     {{"max_angle_rad", same.max_angle_rad},
+                      {"max_distance_m", same.max_distance_m},
+                      {"max_mspd_px", same.max_mspd_px}}},
+                    {"summary", summary_json(poses)},
+                    {"poses", ordered_json::array()}};
   for (const ExplainedPose& pose : poses) root["poses"].push_back(explained_json(pose));
   return root;
 }

@@ -97,10 +97,10 @@ Range distances_in(const Se3& camera_from_world, std::span<const ObjectPose> pos
 }
 
 // Runs the jobs of a batch one after the other.
-class Registrar {
+class RegisterRun {
  public:
-  Registrar(std::vector<InputImage> views, std::span<const RegisterModel> models, Backend& backend,
-            const RegisterOptions& options)
+  RegisterRun(std::vector<InputImage> views, std::span<const RegisterModel> models,
+              Backend& backend, const RegisterOptions& options)
       : views_(std::move(views)),
         models_(models),
         backend_(backend),
@@ -188,12 +188,12 @@ std::vector<InputImage> images_of(std::span<const RegisterJob> jobs) {
 }
 
 // Existing results are checked before any work: a result of another run ends the batch.
-std::vector<const RegisterJob*> skip_done(std::span<const RegisterJob> jobs, Registrar& registrar,
+std::vector<const RegisterJob*> skip_done(std::span<const RegisterJob> jobs, RegisterRun& run,
                                           bool resume) {
   std::vector<const RegisterJob*> open;
   for (const RegisterJob& job : jobs)
-    if (resume && registrar.is_done(job))
-      registrar.skip(job);
+    if (resume && run.is_done(job))
+      run.skip(job);
     else
       open.push_back(&job);
   return open;
@@ -206,19 +206,19 @@ void list_failure(const RegisterJob& job, const std::string& message, RegisterSu
 }
 
 // `may_all_fail`: another shard may have good images.
-void work_through(const std::vector<const RegisterJob*>& open, Registrar& registrar,
+void work_through(const std::vector<const RegisterJob*>& open, RegisterRun& run,
                   bool may_all_fail) {
   Progress progress("register", open.size(), std::cerr, stderr_is_terminal());
   std::size_t failed = 0;
   for (const RegisterJob* job : open) {
     std::optional<std::pair<ReadyJob, Detections>> refined;
     try {
-      refined = registrar.refine(*job);
+      refined = run.refine(*job);
     } catch (const InputError& error) {
-      if (++failed == open.size() && registrar.summary.skipped == 0 && !may_all_fail) throw;
-      list_failure(*job, error.what(), registrar.summary);
+      if (++failed == open.size() && run.summary.skipped == 0 && !may_all_fail) throw;
+      list_failure(*job, error.what(), run.summary);
     }
-    if (refined) registrar.write(refined->first, refined->second);
+    if (refined) run.write(refined->first, refined->second);
     progress.step();
   }
 }
@@ -247,12 +247,12 @@ RegisterSummary run_register(std::span<const RegisterJob> all_jobs,
       options.shard, {options.version, "register", has_joint_views(all_jobs), 0, "", {}},
       settings_of_batch(all_jobs, models, options), images_of(all_jobs), images);
   shard.require_own(options.out);
-  Registrar registrar(all_views(jobs), models, backend, options);
-  RegisterSummary& summary = registrar.summary;
+  RegisterRun run(all_views(jobs), models, backend, options);
+  RegisterSummary& summary = run.summary;
   summary.verb = "register";
   summary.by_scene = has_joint_views(all_jobs);
   summary.images = static_cast<int>(images.size());
-  const std::vector<const RegisterJob*> open = skip_done(jobs, registrar, options.resume);
+  const std::vector<const RegisterJob*> open = skip_done(jobs, run, options.resume);
   require_writable_place(options.out);
   if (!options.resume) require_no_other_results(options.out, all_views(jobs));
   shard.save(options.out);
@@ -263,8 +263,8 @@ RegisterSummary run_register(std::span<const RegisterJob> all_jobs,
     write_ended(images, summary, backend.name(), options.out);
   };
   try {
-    work_through(open, registrar, options.shard.has_value());
-    registrar.depth_warnings.log_warnings();
+    work_through(open, run, options.shard.has_value());
+    run.depth_warnings.log_warnings();
   } catch (const InputError& error) {  // if no image can be used, nothing is written
     if (!summary.finished.empty()) write_summary_of(error);
     throw;

@@ -15,42 +15,38 @@
 
 namespace edgescout {
 
-using json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
 namespace {
 
 // 2: the field extrinsics_checks of a step had another name in 1.
 constexpr int SCOUT_LOG_VERSION = 2;
 
-json pose_json(const Se3& pose) {
-  return {{"R", rotation_numbers(pose)}, {"t", translation_numbers(pose, 1.0)}};
-}
-
-json camera_json(const Camera& c) {
+ordered_json camera_json(const Camera& c) {
   return {{"width", c.width}, {"height", c.height}, {"fx", c.fx},
           {"fy", c.fy},       {"cx", c.cx},         {"cy", c.cy}};
 }
 
-json stages_json(const std::vector<StageSeconds>& stages) {
-  json list = json::array();
+ordered_json stages_json(const std::vector<StageSeconds>& stages) {
+  ordered_json list = ordered_json::array();
   for (const StageSeconds& stage : stages)
     list.push_back({{"stage", stage.name}, {"ms", 1000 * stage.seconds}});
   return list;
 }
 
-json modes_json(const std::vector<ModeDetection>& modes, const ScoutReport& report) {
-  json list = json::array();
+ordered_json modes_json(const std::vector<ModeDetection>& modes, const ScoutReport& report) {
+  ordered_json list = ordered_json::array();
   for (const ModeDetection& mode : modes) {
     const Detection& d = mode.detection;
     const Matrix6d transposed = d.covariance.transpose();  // Eigen stores by column
-    json entry{{"object_id", report.sets[static_cast<std::size_t>(d.object)].object_id},
-               {"probability", d.probability},
-               {"weight", mode.weight},
-               {"psi", d.psi},
-               {"world_from_object", pose_json(d.world_from_object)},
-               {"covariance",
-                std::vector<double>(transposed.data(), transposed.data() + transposed.size())},
-               {"supporting_images", mode.supporting_images}};
+    ordered_json entry{{"object_id", report.sets[static_cast<std::size_t>(d.object)].object_id},
+                       {"probability", d.probability},
+                       {"weight", mode.weight},
+                       {"psi", d.psi},
+                       {"world_from_object", pose_json(d.world_from_object)},
+                       {"covariance", std::vector<double>(transposed.data(),
+                                                          transposed.data() + transposed.size())},
+                       {"supporting_images", mode.supporting_images}};
     if (const auto off = distance_to_truth(d, report))
       entry["off_truth"] = {
           {"angle_rad", off->angle_rad}, {"distance_m", off->distance_m}, {"right", off->right}};
@@ -60,22 +56,24 @@ json modes_json(const std::vector<ModeDetection>& modes, const ScoutReport& repo
 }
 
 // Returns one of the numbers of every view; null for a view that was not open.
-json of_open_views(const std::vector<ViewInformation>& views, double ViewInformation::*number) {
-  json list = json::array();
-  for (const ViewInformation& view : views) list.push_back(view.open ? json(view.*number) : json());
+ordered_json of_open_views(const std::vector<ViewInformation>& views,
+                           double ViewInformation::*number) {
+  ordered_json list = ordered_json::array();
+  for (const ViewInformation& view : views)
+    list.push_back(view.open ? ordered_json(view.*number) : ordered_json());
   return list;
 }
 
 // Share of the depth image's pixels that were measured; null without one.
-json measured_share(const ScoutStep& step) {
+ordered_json measured_share(const ScoutStep& step) {
   if (!step.depth) return {};
   const std::vector<float>& z_m = step.depth->image.z_m;
   const auto measured = std::ranges::count_if(z_m, [](float value) { return value > 0; });
   return static_cast<double>(measured) / static_cast<double>(z_m.size());
 }
 
-json step_json(const ScoutStep& step, const ScoutReport& report) {
-  json extrinsics_checks = json::array();
+ordered_json step_json(const ScoutStep& step, const ScoutReport& report) {
+  ordered_json extrinsics_checks = ordered_json::array();
   for (const ExtrinsicsCheck& view : step.extrinsics_checks)
     extrinsics_checks.push_back({{"residual_px", view.residual_px},
                                  {"objects", view.objects},
@@ -162,18 +160,18 @@ std::optional<DistanceToTruth> distance_to_truth(const Detection& detection,
 
 void save_scout_log(const ScoutState& state, const ScoutReport& report,
                     const std::filesystem::path& folder) {
-  json log{{"edgescout_scout", SCOUT_LOG_VERSION},
-           {"device", report.device},
-           {"source", report.source},
-           {"strategy", report.strategy},
-           {"camera", camera_json(report.camera)}};
+  ordered_json log{{"edgescout_scout", SCOUT_LOG_VERSION},
+                   {"device", report.device},
+                   {"source", report.source},
+                   {"strategy", report.strategy},
+                   {"camera", camera_json(report.camera)}};
   for (const auto& [name, value] : report.settings) log["settings"][name] = value;
   for (const auto& [name, value] : report.planning) log["planning"][name] = value;
-  log["views"] = json::array();
+  log["views"] = ordered_json::array();
   for (const Se3& view : state.views) log["views"].push_back(pose_json(view));
-  log["steps"] = json::array();
+  log["steps"] = ordered_json::array();
   for (const ScoutStep& step : state.steps) log["steps"].push_back(step_json(step, report));
-  log["failed"] = json::array();
+  log["failed"] = ordered_json::array();
   for (const FailedView& failed : state.failed)
     log["failed"].push_back({{"view", failed.view},
                              {"reason", failed.reason},

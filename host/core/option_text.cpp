@@ -22,7 +22,10 @@ std::string text_of(T number) {
 
 std::string text_of(const std::vector<double>& numbers) {
   std::string text;
-  for (const double number : numbers) text += (text.empty() ? "" : " ") + text_of(number);
+  for (const double number : numbers) {
+    if (!text.empty()) text += ' ';
+    text += text_of(number);
+  }
   return text;
 }
 

@@ -19,7 +19,7 @@ constexpr const char* kinds_of_images[] = {"gray",  "grey",   "mono",  "rgb",   
                                            "color", "colour", "image", "images"};
 
 // "000012" -> 12. Nothing: the name is no number.
-std::optional<int> number_in(const std::string& stem) {
+std::optional<int> image_number(const std::string& stem) {
   int number = 0;
   const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
   if (error != std::errc{} || end != stem.data() + stem.size() || number < 0) return {};
@@ -72,7 +72,7 @@ void ImageFiles::add_folder(const fs::path& folder) {
   std::map<int, fs::path> found;
   for (const fs::path& file : entries_of(folder)) {
     const std::optional<int> id =
-        has_image_extension(file) ? number_in(file.stem().string()) : std::nullopt;
+        has_image_extension(file) ? image_number(file.stem().string()) : std::nullopt;
     if (!id) continue;
     const auto [place, is_new] = found.emplace(*id, file);
     if (!is_new && is_preferred(file, place->second, *id)) place->second = file;

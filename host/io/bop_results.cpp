@@ -18,7 +18,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr std::string_view header = "scene_id,im_id,obj_id,score,R,t,time";
+constexpr std::string_view column_names = "scene_id,im_id,obj_id,score,R,t,time";
 
 // The cells of a row. A cell in quotes may hold the separator.
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -93,7 +93,7 @@ struct CsvLayout {
   char separator = ',';
   std::size_t cells = 7;
   std::array<std::optional<std::size_t>, ColumnCount> places{0, 1, 2, 3, 4, 5, 6, {}};
-  std::string names = std::string(header);
+  std::string names = std::string(column_names);
 };
 
 std::optional<Column> column_named(std::string name) {
@@ -133,7 +133,7 @@ std::optional<CsvLayout> named_columns(const std::string& text, const CsvLine& l
   }
   if (!is_header) return {};
   for (int column = SceneColumn; column < TimeColumn; ++column)
-    if (!layout.places[column]) line.fail("columns", text, std::string(header));
+    if (!layout.places[column]) line.fail("columns", text, std::string(column_names));
   if (!is_blank(unused))
     log(LogLevel::Info, line.source + ": columns that are not used: " + unused);
   return layout;
@@ -231,7 +231,7 @@ BopResultRows load_bop_result_rows(const std::filesystem::path& file) {
     }
   }
   if (!layout)
-    throw InputError(file.string(), "file", "nothing", "the columns " + std::string(header));
+    throw InputError(file.string(), "file", "nothing", "the columns " + std::string(column_names));
   report(passed_over, results.size(), file.string());
   warn_of_projected(projected, file.string());
   return {std::move(results), passed_over.rows};
@@ -240,7 +240,7 @@ BopResultRows load_bop_result_rows(const std::filesystem::path& file) {
 void save_bop_results(const std::vector<BopResult>& results, const std::filesystem::path& file) {
   const bool has_cameras = std::ranges::any_of(
       results, [](const BopResult& result) { return !result.camera_name.empty(); });
-  std::string text = std::string(header) + (has_cameras ? ",camera\n" : "\n");
+  std::string text = std::string(column_names) + (has_cameras ? ",camera\n" : "\n");
   for (const BopResult& result : results) {
     for (int id : {result.scene_id, result.image_id, result.object_id})
       text += std::to_string(id) + ",";

@@ -16,7 +16,6 @@ namespace edgescout {
 
 namespace {
 
-constexpr double metres_per_mm = 1e-3;
 constexpr char in_memory[] = "depth image";
 
 // Of the values that say anything; 0 where there are none.
@@ -46,7 +45,7 @@ DepthImage in_metres(const cv::Mat& stored, const std::string& source, const Dep
   options.validate();
   const bool is_real = stored.depth() == CV_32F || stored.depth() == CV_64F;
   const double unit_m =
-      options.unit_m > 0 ? options.unit_m : stated_m.value_or(is_real ? 1.0 : metres_per_mm);
+      options.unit_m > 0 ? options.unit_m : stated_m.value_or(is_real ? 1.0 : 1e-3);
   cv::Mat values;
   stored.convertTo(values, CV_32F);
   DepthImage depth{stored.cols, stored.rows, {}};

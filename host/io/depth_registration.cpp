@@ -18,7 +18,7 @@ namespace {
 
 constexpr float MOST_RELATIVE_STEP = 0.02f;  // of depth between neighbours on one surface
 
-void require_size(const DepthImage& depth, const Camera& camera) {
+void require_size_of_camera(const DepthImage& depth, const Camera& camera) {
   if (depth.width != camera.width || depth.height != camera.height)
     throw InputError("depth image", "size", fmt::format("{}x{}", depth.width, depth.height),
                      fmt::format("{}x{} as its camera has ({} names another one)", camera.width,
@@ -28,7 +28,7 @@ void require_size(const DepthImage& depth, const Camera& camera) {
 }  // namespace
 
 DepthImage undistort_depth(const DepthImage& depth, const Camera& camera) {
-  require_size(depth, camera);
+  require_size_of_camera(depth, camera);
   if (!camera.has_distortion()) return depth;
   const cv::Mat source(depth.height, depth.width, CV_32F, const_cast<float*>(depth.z_m.data()));
   const PixelMap map = map_to_original(camera);

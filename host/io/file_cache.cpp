@@ -33,7 +33,7 @@ struct CacheEntry {
 };
 
 // Another program may remove an entry at any time: such a one is left out.
-std::vector<CacheEntry> entries_of(const fs::path& folder) {
+std::vector<CacheEntry> cache_entries(const fs::path& folder) {
   std::vector<CacheEntry> entries;
   std::error_code failure;
   for (fs::directory_iterator file(folder, failure), end; !failure && file != end;
@@ -100,7 +100,7 @@ void FileCache::write(std::string_view key, const std::function<void(BinaryWrite
 }
 
 void FileCache::remove_least_recently_used() const {
-  std::vector<CacheEntry> entries = entries_of(folder_);
+  std::vector<CacheEntry> entries = cache_entries(folder_);
   std::ranges::sort(entries, std::greater{}, &CacheEntry::used);
   std::uint64_t total = 0;
   for (const CacheEntry& entry : entries) {

@@ -144,4 +144,8 @@ std::vector<double> translation_numbers(const Se3& pose, double metres_per_unit)
   return {t.x(), t.y(), t.z()};
 }
 
+nlohmann::ordered_json pose_json(const Se3& pose) {
+  return {{"R", rotation_numbers(pose)}, {"t", translation_numbers(pose, 1.0)}};
+}
+
 }  // namespace edgescout

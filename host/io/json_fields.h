@@ -52,5 +52,7 @@ Se3 pose_from(const JsonField& rotation, const JsonField& translation, double me
 Se3 pose_from(const JsonField& rotation, const JsonField& translation, double metres_per_unit);
 std::vector<double> rotation_numbers(const Se3& pose);  // by row
 std::vector<double> translation_numbers(const Se3& pose, double metres_per_unit);
+// Of a file of this program: R, 9 numbers by row, and t in metres.
+nlohmann::ordered_json pose_json(const Se3& pose);
 
 }  // namespace edgescout

@@ -12,8 +12,8 @@ namespace edgescout {
 
 // The text ends with a line break.
 template <typename Json>
-std::string json_text(const Json& json, int indent = 1) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+std::string json_text(const Json& content, int indent = 1) {
+  return content.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 // Returns the text as it is read back from such a file. Use it to compare a name with one that was

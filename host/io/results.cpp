@@ -9,7 +9,7 @@
 
 namespace edgescout {
 
-using json = nlohmann::ordered_json;  // keeps the order of the fields, for people who read the file
+using nlohmann::ordered_json;  // keeps the order of the fields, for people who read the file
 
 namespace {
 
@@ -19,17 +19,17 @@ constexpr const char* version_field = "edgescout_result";
 constexpr const char* psi_z_score_field = "psi_z_score";
 constexpr const char* psi_z_score_field_of_version_2 = "evidence";
 
-json pose_json(const Se3& pose) {
+ordered_json with_quaternion(const Se3& pose) {
   const Eigen::Quaterniond& q = pose.rotation;
-  return {{"R", rotation_numbers(pose)},
-          {"t", translation_numbers(pose, 1.0)},
-          {"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}}};
+  ordered_json fields = pose_json(pose);
+  fields["quaternion_wxyz"] = {q.w(), q.x(), q.y(), q.z()};
+  return fields;
 }
 
 // The camera of a result is ideal; the field keeps the length that it had in the first version.
 constexpr std::size_t written_coefficients = 8;
 
-json camera_json(const Camera& c) {
+ordered_json camera_json(const Camera& c) {
   return {{"width", c.width},
           {"height", c.height},
           {"fx", c.fx},
@@ -40,16 +40,17 @@ json camera_json(const Camera& c) {
            std::vector<double>(c.distortion.begin(), c.distortion.begin() + written_coefficients)}};
 }
 
-json alternatives_json(const Detection& detection, const Se3& camera_from_world) {
-  json list = json::array();
+ordered_json alternatives_json(const Detection& detection, const Se3& camera_from_world) {
+  ordered_json list = ordered_json::array();
   for (const AlternativePose& pose : detection.alternatives)
-    list.push_back({{"probability", pose.probability},
-                    {"world_from_object", pose_json(pose.world_from_object)},
-                    {"camera_from_object", pose_json(camera_from_world * pose.world_from_object)}});
+    list.push_back(
+        {{"probability", pose.probability},
+         {"world_from_object", with_quaternion(pose.world_from_object)},
+         {"camera_from_object", with_quaternion(camera_from_world * pose.world_from_object)}});
   return list;
 }
 
-json detection_json(const Detection& detection, const ImageResult& result) {
+ordered_json detection_json(const Detection& detection, const ImageResult& result) {
   const ObjectName& object = result.objects.at(static_cast<std::size_t>(detection.object));
   const Se3 camera_from_world = result.camera_from_world.value_or(Se3{});
   const Matrix6d transposed = detection.covariance.transpose();  // Eigen stores by column
@@ -63,8 +64,8 @@ json detection_json(const Detection& detection, const ImageResult& result) {
       {psi_z_score_field, detection.psi_z_score},
       {"unexplained_grey", detection.unexplained_grey},
       {"convergence", detection.convergence},
-      {"world_from_object", pose_json(detection.world_from_object)},
-      {"camera_from_object", pose_json(camera_from_world * detection.world_from_object)},
+      {"world_from_object", with_quaternion(detection.world_from_object)},
+      {"camera_from_object", with_quaternion(camera_from_world * detection.world_from_object)},
       {"covariance", std::vector<double>(transposed.data(), transposed.data() + transposed.size())},
       {"alternatives", alternatives_json(detection, camera_from_world)}};
 }
@@ -138,7 +139,7 @@ Detection read_detection(const JsonField& field, const std::vector<ObjectName>& 
 }  // namespace
 
 void save_image_result(const ImageResult& result, const std::filesystem::path& file) {
-  json root;
+  ordered_json root;
   root[version_field] = format_version;
   root["image"] = result.image.string();
   root["scene_id"] = result.scene_id;
@@ -149,14 +150,15 @@ void save_image_result(const ImageResult& result, const std::filesystem::path& f
   if (!result.incomplete.empty()) root["incomplete"] = result.incomplete;
   for (const auto& [name, value] : result.settings) root["settings"][name] = value;
   root["world"] = result.camera_from_world ? "scene" : "camera";
-  if (result.camera_from_world) root["camera_from_world"] = pose_json(*result.camera_from_world);
-  root["timings_ms"] = json::array();
+  if (result.camera_from_world)
+    root["camera_from_world"] = with_quaternion(*result.camera_from_world);
+  root["timings_ms"] = ordered_json::array();
   for (const StageSeconds& stage : result.stages)
     root["timings_ms"].push_back({{"stage", stage.name}, {"ms", 1000 * stage.seconds}});
-  root["objects"] = json::array();
+  root["objects"] = ordered_json::array();
   for (const ObjectName& object : result.objects)
     root["objects"].push_back({{"id", object.id}, {"name", object.name}});
-  root["detections"] = json::array();
+  root["detections"] = ordered_json::array();
   for (const Detection& detection : result.detections)
     root["detections"].push_back(detection_json(detection, result));
   write_file_atomically(file, json_text(root));

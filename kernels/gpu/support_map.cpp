@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t TABLE_WORDS = sizeof(SupportTables) / sizeof(std::int32_t);
 
-Kernel make_pass(const Device& device, std::uint32_t pass) {
+Kernel make_support_pass(const Device& device, std::uint32_t pass) {
   return Kernel(device, {"support_map", support_map_spv, 5, sizeof(SupportMapPush), {pass}});
 }
 
@@ -21,7 +21,8 @@ Kernel make_pass(const Device& device, std::uint32_t pass) {
 SupportMapper::SupportMapper(const Device& device)
     : device_(device),
       candidates_(device),
-      passes_{make_pass(device, SUPPORT_DIRECTIONS), make_pass(device, SUPPORT_SPREAD)} {}
+      passes_{make_support_pass(device, SUPPORT_DIRECTIONS),
+              make_support_pass(device, SUPPORT_SPREAD)} {}
 
 void SupportMapper::record(Batch& batch, const ImageView& image, Buffer<std::uint32_t>& map,
                            Buffer<std::uint32_t>& pixels) {

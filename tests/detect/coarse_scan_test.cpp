@@ -11,7 +11,7 @@
 namespace edgescout::test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(PlaceTemplate, PutsTheCentreWhereItIsAskedFor) {
   const auto backend = make_cpu_backend(1);

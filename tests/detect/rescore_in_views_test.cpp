@@ -14,7 +14,7 @@
 namespace edgescout::test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Se3 looking_at_origin(const Eigen::Vector3d& eye_m) {
   const Eigen::Vector3d z = -eye_m.normalized(), x = z.unitOrthogonal(), y = z.cross(x);

@@ -11,7 +11,7 @@
 namespace edgescout::test {
 namespace {
 
-ExperimentSettings small() {
+ExperimentSettings small_bins() {
   ExperimentSettings settings;
   settings.image_scale = 0.25;
   settings.supersampling = 1;
@@ -22,8 +22,8 @@ TEST(MakeBin, IsTheSameBinEveryTimeAndAnotherForEveryNumber) {
   ThreadPool pool(2);
   const std::vector<Object> types{make_part("l_bracket"), make_part("bearing_block"),
                                   make_part("u_channel")};
-  Bin a = make_bin(types, small(), 3, pool), b = make_bin(types, small(), 3, pool),
-      c = make_bin(types, small(), 4, pool);
+  Bin a = make_bin(types, small_bins(), 3, pool), b = make_bin(types, small_bins(), 3, pool),
+      c = make_bin(types, small_bins(), 4, pool);
   EXPECT_EQ(a.first_view, b.first_view);
   ASSERT_EQ(a.instances.size(), b.instances.size());
   for (std::size_t i = 0; i < a.instances.size(); ++i) {
@@ -43,7 +43,7 @@ TEST(MakeBin, HoldsItsPromises) {
   const std::vector<Object> types{make_part("l_bracket"), make_part("bearing_block"),
                                   make_part("u_channel")};
   for (int number = 0; number < 6; ++number) {
-    const Bin bin = make_bin(types, small(), number, pool);
+    const Bin bin = make_bin(types, small_bins(), number, pool);
     EXPECT_GE(bin.parts, FEWEST_PARTS_OF_BIN);
     EXPECT_LE(bin.parts, MOST_PARTS_OF_BIN);
     EXPECT_EQ(static_cast<int>(bin.instances.size()), bin.parts);
@@ -69,7 +69,7 @@ TEST(BinCell, GivesTheVisibleFractionInEveryView) {
   ThreadPool pool(2);
   const std::vector<Object> types{make_part("l_bracket"), make_part("bearing_block"),
                                   make_part("u_channel")};
-  const Bin bin = make_bin(types, small(), 1, pool);
+  const Bin bin = make_bin(types, small_bins(), 1, pool);
   double most = 0, least = 1;
   for (const BinInstance& instance : bin.instances) {
     EXPECT_EQ(bin.cell->visible(bin.first_view)[instance.placed], instance.visible);
@@ -88,7 +88,7 @@ TEST(ClairvoyantSequence, TakesTheViewThatShowsMost) {
   ThreadPool pool(2);
   const std::vector<Object> types{make_part("l_bracket"), make_part("bearing_block"),
                                   make_part("u_channel")};
-  const Bin bin = make_bin(types, small(), 1, pool);
+  const Bin bin = make_bin(types, small_bins(), 1, pool);
   const auto shown = [&](int second) {
     double sum = 0;
     for (const BinInstance& instance : bin.instances)

@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::vector<Se3> load(const std::string& fields, int steps = 64,
-                      const std::string& diameter_mm = "10") {
+std::vector<Se3> symmetries_with(const std::string& fields, int steps = 64,
+                                 const std::string& diameter_mm = "10") {
   const TemporaryFolder folder;
   const auto file =
       folder.write("models_info.json", "{\"5\": {\"diameter\": " + diameter_mm + fields + "}}");
@@ -47,25 +47,26 @@ std::string discrete(const std::string& list) {
 }
 
 TEST(LoadSymmetries, WithoutAnyHoldsTheIdentityOnly) {
-  const std::vector<Se3> group = load("");
+  const std::vector<Se3> group = symmetries_with("");
   ASSERT_EQ(group.size(), 1u);
   EXPECT_LT(angle_between_rad(group[0], Se3{}), 1e-12);
 }
 
 TEST(LoadSymmetries, KeepsAHalfTurnWithItsOffsetInMetres) {
   // Half a turn about the line x = 10 mm, y = 0 along z: x -> 20 - x, y -> -y.
-  const std::vector<Se3> group = load(discrete("[-1,0,0,20, 0,-1,0,0, 0,0,1,0, 0,0,0,1]"));
+  const std::vector<Se3> group =
+      symmetries_with(discrete("[-1,0,0,20, 0,-1,0,0, 0,0,1,0, 0,0,0,1]"));
   ASSERT_EQ(group.size(), 2u);
   EXPECT_LT((group[1] * Vector3d(0.01, 0, 0.3) - Vector3d(0.01, 0, 0.3)).norm(), 1e-12);
   EXPECT_LT((group[1] * Vector3d(0, 0.002, 0) - Vector3d(0.02, -0.002, 0)).norm(), 1e-12);
 }
 
 TEST(LoadSymmetries, ClosesTheGroupOfItsGenerators) {
-  const std::vector<Se3> four = load(discrete(quarter_turn_z));
+  const std::vector<Se3> four = symmetries_with(discrete(quarter_turn_z));
   EXPECT_EQ(four.size(), 4u);
   expect_closed(four);
   // A square plate: quarter turns about z and a half turn about x make the dihedral group of 8.
-  const std::vector<Se3> plate = load(discrete(quarter_turn_z + "," + half_turn_x));
+  const std::vector<Se3> plate = symmetries_with(discrete(quarter_turn_z + "," + half_turn_x));
   EXPECT_EQ(plate.size(), 8u);
   expect_closed(plate);
   for (int i = 0; i < 4; ++i) {
@@ -76,7 +77,7 @@ TEST(LoadSymmetries, ClosesTheGroupOfItsGenerators) {
   }
   // Quarter turns about two axes generate the 24 rotations of a cube.
   const std::vector<Se3> cube =
-      load(discrete(quarter_turn_z + ",[1,0,0,0, 0,0,-1,0, 0,1,0,0, 0,0,0,1]"));
+      symmetries_with(discrete(quarter_turn_z + ",[1,0,0,0, 0,0,-1,0, 0,1,0,0, 0,0,0,1]"));
   EXPECT_EQ(cube.size(), 24u);
   expect_closed(cube);
 }
@@ -105,7 +106,7 @@ TEST(LoadSymmetries, TakesAMeasuredHalfTurnForOne) {
   const Se3 half_turn = turn(std::numbers::pi - 0.025, tilted, Vector3d(0.002, 0, 0.001));
   ASSERT_NEAR(angle_between_rad(half_turn * half_turn, Se3{}), 0.05, 1e-9);
   for (const std::string& matrix : {eggbox_half_turn, glue_half_turn, matrix_text(half_turn, 6)}) {
-    const std::vector<Se3> group = load(discrete(matrix), 64, "170");
+    const std::vector<Se3> group = symmetries_with(discrete(matrix), 64, "170");
     ASSERT_EQ(group.size(), 2u) << matrix;
     EXPECT_LT(angle_between_rad(group[0], Se3{}), 1e-12);
     EXPECT_NEAR(angle_between_rad(group[1], Se3{}), std::numbers::pi, 0.03) << "as it was measured";
@@ -114,7 +115,7 @@ TEST(LoadSymmetries, TakesAMeasuredHalfTurnForOne) {
 
 TEST(LoadSymmetries, ClosesTheGroupOfAMeasuredGenerator) {
   const Se3 fifth = turn(2 * std::numbers::pi / 5 + 0.01, Vector3d(1, 2, 3).normalized());
-  EXPECT_EQ(load(discrete(matrix_text(fifth, 6))).size(), 5u);
+  EXPECT_EQ(symmetries_with(discrete(matrix_text(fifth, 6))).size(), 5u);
 }
 
 // Also such as measuring would confuse.
@@ -124,7 +125,8 @@ TEST(LoadSymmetries, KeepsTurnsOfHighOrderApart) {
     const Se3 seven_steps =
         turn(7 * 2 * std::numbers::pi / order, Vector3d::UnitZ());  // prime to all
     for (const Se3& generator : {step, seven_steps})
-      EXPECT_EQ(load(discrete(matrix_text(generator, 17))).size(), static_cast<std::size_t>(order));
+      EXPECT_EQ(symmetries_with(discrete(matrix_text(generator, 17))).size(),
+                static_cast<std::size_t>(order));
   }
 }
 
@@ -132,15 +134,15 @@ TEST(LoadSymmetries, KeepsTurnsOfHighOrderApart) {
 TEST(LoadSymmetries, TakesAListThatGeneratesNoGroupAsItIs) {
   for (const Se3& endless :
        {turn(1, Vector3d::UnitZ()), Se3{Eigen::Quaterniond::Identity(), {0.005, 0, 0}}}) {
-    const std::vector<Se3> group = load(discrete(matrix_text(endless, 17)));
+    const std::vector<Se3> group = symmetries_with(discrete(matrix_text(endless, 17)));
     ASSERT_EQ(group.size(), 2u);
     EXPECT_TRUE(contains(group, Se3{}) && contains(group, endless));
   }
 }
 
 TEST(LoadSymmetries, SamplesARotationAboutAnAxis) {
-  const std::vector<Se3> group =
-      load(R"(, "symmetries_continuous": [{"axis": [0, 0, 2], "offset": [10, 20, 0]}])", 8);
+  const std::vector<Se3> group = symmetries_with(
+      R"(, "symmetries_continuous": [{"axis": [0, 0, 2], "offset": [10, 20, 0]}])", 8);
   ASSERT_EQ(group.size(), 8u);
   EXPECT_LT(angle_between_rad(group[0], Se3{}), 1e-12);
   for (int i = 0; i < 8; ++i)
@@ -151,38 +153,42 @@ TEST(LoadSymmetries, SamplesARotationAboutAnAxis) {
 
 // A tin: spins about z and turns over about x.
 TEST(LoadSymmetries, CombinesContinuousAndDiscrete) {
-  const std::vector<Se3> tin = load(discrete(half_turn_x) + spin_z, 6);
+  const std::vector<Se3> tin = symmetries_with(discrete(half_turn_x) + spin_z, 6);
   EXPECT_EQ(tin.size(), 12u);
   expect_closed(tin);
   EXPECT_TRUE(contains(tin, turn(std::numbers::pi / 3, Vector3d::UnitZ()) *
                                 turn(std::numbers::pi, Vector3d::UnitX())));
   // A half turn about the axis itself is among its samples already.
-  EXPECT_EQ(load(discrete("[-1,0,0,0, 0,-1,0,0, 0,0,1,0, 0,0,0,1]") + spin_z, 6).size(), 6u);
+  EXPECT_EQ(symmetries_with(discrete("[-1,0,0,0, 0,-1,0,0, 0,0,1,0, 0,0,0,1]") + spin_z, 6).size(),
+            6u);
 }
 
 TEST(LoadSymmetries, NamesFileAndFieldOfWhatIsWrong) {
-  expect_input_error([] { load(discrete("[1,2,3]")); },
+  expect_input_error([] { symmetries_with(discrete("[1,2,3]")); },
                      {"models_info.json", "/5/symmetries_discrete/0", "3 numbers"});
-  expect_input_error([] { load(discrete("[2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]")); },
+  expect_input_error([] { symmetries_with(discrete("[2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]")); },
                      {"/5/symmetries_discrete/0", "no rotation"});
   // A mirror is no motion of a rigid body.
-  expect_input_error([] { load(discrete("[-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]")); },
+  expect_input_error([] { symmetries_with(discrete("[-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]")); },
                      {"/5/symmetries_discrete/0", "no rotation"});
   expect_input_error(
-      [] { load(R"(, "symmetries_continuous": [{"axis": [0, 0, 0], "offset": [0, 0, 0]}])"); },
+      [] {
+        symmetries_with(R"(, "symmetries_continuous": [{"axis": [0, 0, 0], "offset": [0, 0, 0]}])");
+      },
       {"/5/symmetries_continuous/0/axis"});
-  expect_input_error([] { load(R"(, "symmetries_continuous": [{"axis": [0, 0, 1]}])"); },
+  expect_input_error([] { symmetries_with(R"(, "symmetries_continuous": [{"axis": [0, 0, 1]}])"); },
                      {"/5/symmetries_continuous/0/offset"});
-  expect_input_error([] { load(discrete("[-1,0,0,0, 0,-1,0,0, 0,0,1,0, 5,0,0,1]")); },
+  expect_input_error([] { symmetries_with(discrete("[-1,0,0,0, 0,-1,0,0, 0,0,1,0, 5,0,0,1]")); },
                      {"/5/symmetries_discrete/0", "last row", "transposed"});
-  expect_input_error([] { load(R"(, "symmetries": ["z2"])"); },
+  expect_input_error([] { symmetries_with(R"(, "symmetries": ["z2"])"); },
                      {"/5/symmetries", "not known", "symmetries_discrete"});
   for (const char* other : {"Symmetries_Discrete", "sym"})
-    expect_input_error([&] { load(std::string(", \"") + other + "\": [2]"); },
+    expect_input_error([&] { symmetries_with(std::string(", \"") + other + "\": [2]"); },
                        {other, "not known"});
   expect_input_error(
       [] {
-        load(R"(, "symmetries_continuous": [{"axis": [0,0,1], "offset": [0,0,0], "step": 90}])");
+        symmetries_with(
+            R"(, "symmetries_continuous": [{"axis": [0,0,1], "offset": [0,0,0], "step": 90}])");
       },
       {"/5/symmetries_continuous/0/step", "90"});
   const TemporaryFolder folder;

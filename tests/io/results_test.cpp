@@ -154,7 +154,7 @@ TEST(ImageResult, RejectsOtherVersionsAndFilesCutShort) {
 }
 
 // The same file with every occurrence of `from` replaced.
-std::string replaced(std::string text, std::string_view from, std::string_view to) {
+std::string all_replaced(std::string text, std::string_view from, std::string_view to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
     text.replace(at, from.size(), to);
   return text;
@@ -168,8 +168,8 @@ TEST(ImageResult, ReadsThePsiZScoreOfVersions2And3) {
   EXPECT_NE(version_3.find("\"psi_z_score\": 7.5"), std::string::npos);
   EXPECT_EQ(version_3.find("evidence"), std::string::npos);
   const std::string version_2 =
-      replaced(replaced(version_3, "\"edgescout_result\": 3", "\"edgescout_result\": 2"),
-               "psi_z_score", "evidence");
+      all_replaced(all_replaced(version_3, "\"edgescout_result\": 3", "\"edgescout_result\": 2"),
+                   "psi_z_score", "evidence");
   const ImageResult back = load_image_result(folder.write("old.json", version_2));
   ASSERT_EQ(back.detections.size(), 2u);
   EXPECT_EQ(back.detections[0].psi_z_score, 7.5);
@@ -181,7 +181,7 @@ TEST(ImageResult, ReadsDetectionsWithoutAlternatives) {
   const TemporaryFolder folder;
   save_image_result(sample_result(), folder.path() / "r.json");
   const std::string older =
-      replaced(content_of(folder.path() / "r.json"), "\"alternatives\"", "\"unknown\"");
+      all_replaced(content_of(folder.path() / "r.json"), "\"alternatives\"", "\"unknown\"");
   EXPECT_TRUE(
       load_image_result(folder.write("old.json", older)).detections[0].alternatives.empty());
 }
@@ -190,9 +190,9 @@ TEST(ImageResult, RefusesAFieldOfTheOtherVersion) {
   const TemporaryFolder folder;
   save_image_result(sample_result(), folder.path() / "r.json");
   const std::string version_3 = content_of(folder.path() / "r.json");
-  const std::string named_as_in_2 = replaced(version_3, "psi_z_score", "evidence"),
-                    numbered_as_2 =
-                        replaced(version_3, "\"edgescout_result\": 3", "\"edgescout_result\": 2");
+  const std::string named_as_in_2 = all_replaced(version_3, "psi_z_score", "evidence"),
+                    numbered_as_2 = all_replaced(version_3, "\"edgescout_result\": 3",
+                                                 "\"edgescout_result\": 2");
   expect_input_error([&] { load_image_result(folder.write("a.json", named_as_in_2)); },
                      {"a.json", "/detections/0/psi_z_score"});
   expect_input_error([&] { load_image_result(folder.write("b.json", numbered_as_2)); },

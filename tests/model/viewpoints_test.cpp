@@ -23,7 +23,7 @@ double angle_rad(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 TEST(Viewpoints, IcosphereCountsAndSpacing) {
   Random random = test_random();
   for (int frequency = 1; frequency <= 8; ++frequency) {
-    const std::vector<Eigen::Vector3d> directions = icosphere(frequency);
+    const std::vector<Eigen::Vector3d> directions = edgescout::icosphere(frequency);
     ASSERT_EQ(directions.size(), std::size_t(10 * frequency * frequency + 2));
     for (std::size_t i = 0; i < directions.size(); ++i) {
       EXPECT_NEAR(directions[i].norm(), 1, 1e-12);
@@ -53,7 +53,7 @@ TEST(Viewpoints, RangesOfLatitudeAndLongitude) {
   EXPECT_FALSE(wrapped.contains(at(45, 70)));
   EXPECT_FALSE(wrapped.contains(at(5, 0)));
   EXPECT_FALSE(wrapped.contains(at(85, 0)));
-  for (const Eigen::Vector3d& d : icosphere(3)) EXPECT_TRUE(SphereRange{}.contains(d));
+  for (const Eigen::Vector3d& d : edgescout::icosphere(3)) EXPECT_TRUE(SphereRange{}.contains(d));
 }
 
 TEST(Viewpoints, TheCameraLooksBackAtTheObject) {
@@ -68,7 +68,7 @@ TEST(Viewpoints, TheCameraLooksBackAtTheObject) {
 
 void expect_no_gap(const Symmetries& symmetries, int frequency, double least_kept,
                    double most_kept) {
-  const std::vector<Eigen::Vector3d> all = icosphere(frequency);
+  const std::vector<Eigen::Vector3d> all = edgescout::icosphere(frequency);
   const std::vector<Eigen::Vector3d> kept =
       modulo_symmetry(all, symmetries, ICOSPHERE_GAP_RAD / frequency);
   EXPECT_GE(double(kept.size()), least_kept * double(all.size()));

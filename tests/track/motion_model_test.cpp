@@ -12,7 +12,7 @@ const Eigen::Vector3d far_center(0.2, 0, 0.1);  // of an object whose origin lie
 Matrix6d sure() { return 1e-10 * Matrix6d::Identity(); }
 
 // Turns about its centre while the centre moves along a line.
-Se3 pose_at(double time_s) {
+Se3 moving_pose(double time_s) {
   const Se3 first{Eigen::Quaterniond::Identity(), {0, 0, 0.5}};
   Vector6d motion;
   motion << 0.1 * time_s, -0.05 * time_s, 0.02 * time_s, 0, 0.3 * time_s, 0;
@@ -20,18 +20,19 @@ Se3 pose_at(double time_s) {
 }
 
 TEST(MotionModel, PredictsConstantVelocityAndTurnRateAboutTheCenter) {
-  MotionModel motion(far_center, pose_at(0));
-  for (const double time_s : {10.0, 10.1, 10.25}) motion.measured(pose_at(time_s), sure(), time_s);
-  const Se3 predicted = motion.predicted(10.6), truth = pose_at(10.6);
+  MotionModel motion(far_center, moving_pose(0));
+  for (const double time_s : {10.0, 10.1, 10.25})
+    motion.measured(moving_pose(time_s), sure(), time_s);
+  const Se3 predicted = motion.predicted(10.6), truth = moving_pose(10.6);
   EXPECT_LT(distance_between_m(predicted, truth), 1e-5);
   EXPECT_LT(angle_between_rad(predicted, truth), 1e-4);
 }
 
 // The pose that a user gives is only roughly right: what corrects it is no motion.
 TEST(MotionModel, TakesNoVelocityFromTheFirstMeasurement) {
-  MotionModel motion(far_center, pose_at(0));
-  motion.measured(pose_at(1), sure(), 5);
-  EXPECT_LT(distance_between_m(motion.predicted(6), pose_at(1)), 1e-12);
+  MotionModel motion(far_center, moving_pose(0));
+  motion.measured(moving_pose(1), sure(), 5);
+  EXPECT_LT(distance_between_m(motion.predicted(6), moving_pose(1)), 1e-12);
 }
 
 TEST(MotionModel, SlowsDownWithoutMeasurements) {
@@ -66,11 +67,11 @@ TEST(MotionModel, FollowsASuddenMotionAtOnce) {
 }
 
 TEST(MotionModel, IsLessAndLessSureWithoutMeasurements) {
-  MotionModel motion(far_center, pose_at(0));
+  MotionModel motion(far_center, moving_pose(0));
   EXPECT_TRUE(std::isinf(motion.covariance()(0, 0)));
   motion.coast(1);
   EXPECT_TRUE(std::isinf(motion.covariance()(0, 0)));
-  motion.measured(pose_at(2), sure(), 2);
+  motion.measured(moving_pose(2), sure(), 2);
   double last = motion.covariance()(0, 0);
   for (int second = 3; second < 8; ++second) {
     motion.coast(second);
