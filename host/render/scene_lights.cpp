@@ -67,9 +67,9 @@ void add_environment(SimulatedScene& scene, const FarLight& far_light, double ir
 }
 
 FarLight random_surroundings(const PhotographFolders& photographs, const Random& random) {
-  constexpr int SIDE_PX = 512;
+  constexpr int PHOTOGRAPH_PX = 512;
   if (photographs.empty()) return random_room(random);
-  return photograph_overhead(random_crop(photographs, SIDE_PX, SIDE_PX, random));
+  return photograph_overhead(random_crop(photographs, PHOTOGRAPH_PX, PHOTOGRAPH_PX, random));
 }
 
 }  // namespace
