@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "host/baselines/point_sums.h"
+#include "host/core/pose_steps.h"
 
 namespace edgescout {
 

@@ -5,6 +5,7 @@
 
 #include <ceres/ceres.h>
 
+#include "host/core/pose_steps.h"
 #include "host/core/thinned.h"
 #include "host/register/depth_cost.h"
 #include "host/register/depth_systems.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/core/pose_steps.h"
 #include "host/register/edge_covariance_weights.h"
-#include "host/register/lm_state.h"
 
 namespace edgescout {
 

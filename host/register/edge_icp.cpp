@@ -6,6 +6,7 @@
 
 #include "host/core/matrix6.h"
 #include "host/core/options.h"
+#include "host/core/pose_steps.h"
 #include "host/core/thinned.h"
 #include "host/register/contested_edges.h"
 #include "host/register/d2co.h"

@@ -1,9 +1,9 @@
 #include "host/register/lm_state.h"
-#include "host/core/matrix6.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+
+#include "host/core/matrix6.h"
+#include "host/core/pose_steps.h"
 
 namespace edgescout {
 
@@ -46,14 +46,6 @@ void accept_step(LmState& state, const WorldSystem& at_trial, double min_step_m,
     state.active = false, state.convergence = Convergence::NoDecrease;
 }
 
-bool is_small(const Vector6d& step, double min_step_m, double min_step_rad) {
-  return step.head<3>().norm() < min_step_m && step.tail<3>().norm() < min_step_rad;
-}
-
-double rms_motion_px(const Vector6d& step, const Matrix6d& hessian, double weight_sum) {
-  return weight_sum > 0 ? std::sqrt(std::max(0.0, step.dot(hessian * step)) / weight_sum) : 0;
-}
-
 void add_view(WorldSystem& sum, const NormalEquations& view, const Se3& camera_from_world) {
   WorldSystem in_camera;
   int entry = 0;
@@ -91,15 +83,6 @@ WorldSystem& WorldSystem::operator+=(const WorldSystem& other) {
   depth_cost += other.depth_cost;
   depth_points += other.depth_points;
   return *this;
-}
-
-Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance) {
-  if (const std::optional<Matrix6d> inverse = inverse_of_positive(hessian))
-    return residual_variance * *inverse;
-  // Not infinity times the identity: zero times infinity is NaN.
-  Matrix6d unknown = Matrix6d::Zero();
-  unknown.diagonal().setConstant(std::numeric_limits<double>::infinity());
-  return unknown;
 }
 
 PoseEstimate estimate_of(const LmState& state, int object) {

@@ -51,16 +51,7 @@ void compute_step(LmState& state);
 // lowers the cost.
 void accept_step(LmState& state, const WorldSystem& at_trial, double min_step_m,
                  double min_step_rad);
-bool is_small(const Vector6d& step, double min_step_m, double min_step_rad);
-
-// By how much a step moves the points across their edges, from the weighted sum of the squares of
-// its derivatives.
-double rms_motion_px(const Vector6d& step, const Matrix6d& hessian, double weight_sum);
 
 PoseEstimate estimate_of(const LmState& state, int object);
-
-// Covariance of a pose from its final system: variance * hessian^-1 in the tangent of core/se3.h,
-// infinite where singular.
-Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance);
 
 }  // namespace edgescout

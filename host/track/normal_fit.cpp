@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "host/core/matrix6.h"
+#include "host/core/pose_steps.h"
 #include "host/model/visible_edges.h"
 #include "host/register/edge_covariance.h"
 #include "host/register/image_motion.h"

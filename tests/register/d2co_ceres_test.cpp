@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "host/core/pose_steps.h"
 #include "tests/register/scene.h"
 #include "tests/test_random.h"
 

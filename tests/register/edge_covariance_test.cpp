@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "host/core/pose_steps.h"
 #include "host/register/d2co.h"
 #include "tests/test_random.h"
 
