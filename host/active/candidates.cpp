@@ -4,10 +4,9 @@
 
 #include "host/core/order.h"
 #include "host/detect/detect.h"
-#include "host/detect/pose_distance.h"
+#include "host/detect/distinct_poses.h"
 #include "host/detect/rescore_in_views.h"
 #include "host/detect/search_space.h"
-#include "host/detect/suppression.h"
 #include "host/register/depth_evidence.h"
 #include "host/register/pose_classifier.h"
 #include "kernels/error.h"

@@ -6,7 +6,7 @@
 
 #include "host/core/order.h"
 #include "host/detect/detect.h"
-#include "host/detect/pose_distance.h"
+#include "host/detect/distinct_poses.h"
 #include "host/register/pose_classifier.h"
 #include "kernels/error.h"
 

@@ -1,7 +1,7 @@
 #include "host/detect/detect.h"
 
 #include "host/detect/keyed_poses.h"
-#include "host/detect/pose_distance.h"
+#include "host/detect/distinct_poses.h"
 #include "host/detect/search_space.h"
 #include "host/detect/support_views.h"
 #include "host/detect/template_points.h"

@@ -1,6 +1,6 @@
 #include "host/detect/join_views.h"
 
-#include "host/detect/suppression.h"
+#include "host/detect/distinct_poses.h"
 #include "host/register/pose_classifier.h"
 #include "host/register/thresholds.h"
 

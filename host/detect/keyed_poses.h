@@ -1,7 +1,7 @@
 // Poses of one object with the keys by which a stage chooses among them.
 #pragma once
 
-#include "host/detect/suppression.h"
+#include "host/detect/distinct_poses.h"
 #include "host/model/template_set.h"
 #include "host/register/thresholds.h"
 

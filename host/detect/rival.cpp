@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/detect/pose_distance.h"
+#include "host/detect/distinct_poses.h"
 #include "host/register/thresholds.h"
 
 namespace edgescout {

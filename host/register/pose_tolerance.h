@@ -1,6 +1,6 @@
 // Decides whether two poses lie within a tolerance, by their centres and orientations.
 //
-// Symmetries play no part (detect/pose_distance.h): starts of one part stay on their side.
+// Symmetries play no part (detect/distinct_poses.h): starts of one part stay on their side.
 #pragma once
 
 #include "host/register/scene.h"

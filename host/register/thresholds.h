@@ -1,7 +1,7 @@
 // Thresholds that several stages share, each with its reason.
 //
 // "Same pose" is a distance between corresponding corners of the bounding box, modulo symmetry
-// (detect/pose_distance.h), as a fraction of the object's diameter.
+// (detect/distinct_poses.h), as a fraction of the object's diameter.
 #pragma once
 
 namespace edgescout::thresholds {

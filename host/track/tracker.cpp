@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "host/core/image_size.h"
-#include "host/detect/pose_distance.h"
+#include "host/detect/distinct_poses.h"
 #include "host/register/depth_evidence.h"
 #include "host/register/occluders.h"
 #include "host/register/thresholds.h"

@@ -1,5 +1,4 @@
-// Random poses and the distance between two of them, for the tests of pose_distance.h and
-// suppression.h.
+// Random poses and the distance between two of them, for the tests of distinct_poses.h.
 #pragma once
 
 #include <algorithm>

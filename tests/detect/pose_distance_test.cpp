@@ -1,4 +1,4 @@
-#include "host/detect/pose_distance.h"
+#include "host/detect/distinct_poses.h"
 
 #include <gtest/gtest.h>
 

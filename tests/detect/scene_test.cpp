@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "host/detect/detect.h"
-#include "host/detect/pose_distance.h"
+#include "host/detect/distinct_poses.h"
 #include "host/register_objects.h"
 #include "tests/detect/rendered_part.h"
 

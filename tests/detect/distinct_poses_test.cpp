@@ -1,4 +1,4 @@
-#include "host/detect/suppression.h"
+#include "host/detect/distinct_poses.h"
 
 #include <gtest/gtest.h>
 
