@@ -4,6 +4,7 @@
 
 #include "host/detect/distinct_poses.h"
 #include "host/register/pose_classifier.h"
+#include "host/register/thresholds.h"
 
 namespace edgescout {
 
@@ -19,7 +20,7 @@ std::vector<AlternativePose> alternatives_of(const Detection& detection,
     if (pose.object != detection.object) continue;
     const double offset_m = (pose.world_from_object * set.model.center_m - center_m).norm(),
                  probability = PoseClassifier::probability(pose.features);
-    if (offset_m < ALTERNATIVE_CENTER * mesh.diameter_m &&
+    if (offset_m < thresholds::ALTERNATIVE_CENTER * mesh.diameter_m &&
         probability >= ALTERNATIVE_PROBABILITY * detection.probability)
       here.push_back({pose.world_from_object, probability});
   }
@@ -27,7 +28,8 @@ std::vector<AlternativePose> alternatives_of(const Detection& detection,
   KnownPoses listed({&detection.world_from_object, 1}, mesh, set.symmetries);
   std::vector<AlternativePose> alternatives;
   for (const AlternativePose& pose : here) {
-    if (listed.any_within(ALTERNATIVE_APART * mesh.diameter_m, pose.world_from_object)) continue;
+    if (listed.any_within(thresholds::ALTERNATIVE_APART * mesh.diameter_m, pose.world_from_object))
+      continue;
     listed.add(pose.world_from_object);
     alternatives.push_back(pose);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/register/pose_classifier.h"
+#include "host/register/thresholds.h"
 
 namespace edgescout {
 
@@ -13,10 +14,8 @@ Object object_of(const TemplateSet& set) { return {set.object_id, set.model.mesh
 
 // Compares hits with the given pose. Those that pass lie so near that alignment should move them
 // there: no corner of the object's box is further from its place in the image than a quarter of the
-// object's size there. In rendered scenes half of such hits were aligned to the true pose, and nine
-// of ten hits that were aligned to it were such.
+// object's size there (thresholds::NEAR_GIVEN).
 SamePose near_the(const ObjectPose& given, const TemplateSet& set, const Camera& camera) {
-  constexpr double fraction = 0.25;
   Object box = object_of(set);
   const Mesh& mesh = set.model.mesh;
   box.mesh.vertices_m.clear();
@@ -26,7 +25,7 @@ SamePose near_the(const ObjectPose& given, const TemplateSet& set, const Camera&
         box.mesh.vertices_m.emplace_back(x_m, y_m, z_m);
   const double distance_m = (given.world_from_object * set.model.center_m).norm();
   SamePoseOptions near;
-  near.max_mspd_px = fraction * mesh.diameter_m * camera.fx / distance_m;
+  near.max_mspd_px = thresholds::NEAR_GIVEN * mesh.diameter_m * camera.fx / distance_m;
   return {box, camera, given.world_from_object, near};
 }
 

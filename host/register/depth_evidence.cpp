@@ -1,6 +1,7 @@
 #include "host/register/depth_evidence.h"
 
 #include "host/register/depth_systems.h"
+#include "host/register/thresholds.h"
 
 namespace edgescout {
 
@@ -42,9 +43,8 @@ Grid<DepthEvidence> depth_evidence(const Scene& scene, std::span<const ObjectPos
 }
 
 bool is_contradicted(const DepthEvidence& evidence) {
-  constexpr double fewest = 20;  // of the some 300 samples that face a camera
   const double measured = evidence.agreeing + evidence.contradicting;
-  return measured >= fewest && evidence.contradicting > 0.5 * measured;
+  return measured >= thresholds::MIN_DEPTH_SAMPLES && evidence.contradicting > 0.5 * measured;
 }
 
 }  // namespace edgescout

@@ -5,6 +5,7 @@
 #include "host/register/depth_evidence.h"
 #include "host/register/edge_icp.h"
 #include "host/register/measured_depth.h"
+#include "host/register/thresholds.h"
 #include "host/register/visible_in_views.h"
 
 namespace edgescout {
@@ -35,7 +36,6 @@ Grid<DepthEvidence> evidence_in(std::span<const EdgeModel> models, const ObjectV
 std::vector<DepthOffset> depth_offsets(std::span<const EdgeModel> models, const ObjectView& view,
                                        Backend& backend, std::span<const ObjectPose> poses) {
   constexpr double most_moved = 0.2, most_turned_rad = 0.2;  // of the diameter
-  constexpr double fewest_samples = 20;
   const Grid<DepthEvidence> evidence = evidence_in(models, view, backend, poses);
   ObjectView edges_alone = view;
   edges_alone.depth = nullptr;
@@ -56,7 +56,7 @@ std::vector<DepthOffset> depth_offsets(std::span<const EdgeModel> models, const 
                          by_edges.convergence == Convergence::NoDecrease ||
                          by_edges.convergence == Convergence::IterationLimit;
     const double samples = evidence(i, 0).agreeing + evidence(i, 0).contradicting;
-    if (!is_held || samples < fewest_samples || !std::isfinite(variance) ||
+    if (!is_held || samples < thresholds::MIN_DEPTH_SAMPLES || !std::isfinite(variance) ||
         moved_m.norm() > most_moved * model.mesh.diameter_m ||
         angle_between_rad(poses[i].world_from_object, by_edges.world_from_object) > most_turned_rad)
       continue;

@@ -20,11 +20,14 @@ struct EdgeIcpRound {
 struct BasinHops {
   double tilt_rad = 0.15;        // about axes across the line of sight
   double distance_share = 0.02;  // of the distance, nearer and farther
-  std::vector<EdgeIcpRound> rounds{{3, 1.5f, 4}, {2, 0.8f, 4}};
+  std::vector<EdgeIcpRound> rounds{{.radius_px = 3, .scale_px = 1.5f, .iterations = 4},
+                                   {.radius_px = 2, .scale_px = 0.8f, .iterations = 4}};
 };
 
 struct EdgeIcpOptions {
-  std::vector<EdgeIcpRound> rounds{{5, 2.5f, 4}, {3, 1.2f, 5}, {2, 0.8f, 5}};
+  std::vector<EdgeIcpRound> rounds{{.radius_px = 5, .scale_px = 2.5f, .iterations = 4},
+                                   {.radius_px = 3, .scale_px = 1.2f, .iterations = 5},
+                                   {.radius_px = 2, .scale_px = 0.8f, .iterations = 5}};
   float max_turn_rad = 0.3f;
   double min_matched = 0.1;  // of the visible points in all views: with fewer a pose stays as it is
   int max_points = 0;        // per view, evenly thinned; 0: all

@@ -7,6 +7,7 @@
 
 #include "host/register/measured_depth.h"
 #include "host/register/occluders.h"
+#include "host/register/thresholds.h"
 
 namespace edgescout {
 
@@ -49,10 +50,9 @@ double densest(std::vector<double> values, double width) {
 // Of one view. Nothing: too little is measured, or the start lies on the surface.
 std::optional<Se3> moved_once(const EdgeModel& model, const Se3& camera_from_object,
                               const ObjectView& view) {
-  constexpr std::size_t least = 20;
   const std::vector<double> offsets = offsets_m(model, camera_from_object, view);
   const double tolerance_m = occlusion_tolerance_m(model);
-  if (offsets.size() < least) return {};
+  if (offsets.size() < thresholds::MIN_DEPTH_SAMPLES) return {};
   const double offset_m = densest(offsets, tolerance_m);
   const Eigen::Vector3d center_m = camera_from_object * model.center_m;
   if (std::abs(offset_m) < tolerance_m || !(center_m.z() + offset_m > 0)) return {};

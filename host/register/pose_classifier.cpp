@@ -41,11 +41,11 @@ bool has_image(const PoseFeatures& features) {
 // Log-odds from the share of the measured surface that agrees. Fewer samples say less; hidden and
 // missing ones say nothing.
 double depth_log_odds(const DepthEvidence& depth) {
-  constexpr double enough = 20;
   const double measured = depth.agreeing + depth.contradicting;
   if (!(measured > 0)) return 0;
   const weights::Depth& w = weights::DEPTH;
-  return std::min(1.0, measured / enough) * (w.bias + w.agreeing * depth.agreeing / measured);
+  return std::min(1.0, measured / thresholds::MIN_DEPTH_SAMPLES) *
+         (w.bias + w.agreeing * depth.agreeing / measured);
 }
 
 void add(DepthEvidence& sum, const DepthEvidence& other) {

@@ -50,9 +50,8 @@ bool is_determined(const Track& track, const EdgeModel& model) {
 
 // A doubtful pose is believed where it agrees with the predicted one.
 bool is_near(const Se3& pose, const Se3& predicted, const EdgeModel& model) {
-  constexpr double most_of_diameter = 0.15;
   return pose_distance_m(pose, predicted, model.mesh, {}) <
-         most_of_diameter * model.mesh.diameter_m;
+         thresholds::NEAR_PREDICTED * model.mesh.diameter_m;
 }
 
 }  // namespace
