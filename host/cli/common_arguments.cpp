@@ -61,7 +61,7 @@ std::unique_ptr<Backend> backend_of(const std::string& device) {
 
 void add_max_seconds(CLI::App& verb, double& max_seconds) {
   OptionTable(verb, "Batch")
-      .bounded("max-seconds", max_seconds, 0.0, 1e6,
+      .bounded("max-seconds", max_seconds, 0.0, 1e9,
                "Time for each image once its edges are found, or for each scene whose views are "
                "worked on together, s. Then the poses found so far are written. 0: no limit");
 }
