@@ -75,7 +75,7 @@ Detections register_objects(std::span<const ObjectView> prepared, std::span<cons
   for (std::size_t i = 0; i < refined.size(); ++i) {
     Detection& found = result.detections.emplace_back(to_detection(refined[i]));
     if (!is_out_of_sight(views, starts[i], models[std::size_t(starts[i].object)],
-                         pool_over_views(refined[i].features)))
+                         refined[i].classification.pooled))
       continue;
     found.probability = 0;
     found.convergence = OUT_OF_SIGHT;

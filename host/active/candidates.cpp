@@ -8,7 +8,6 @@
 #include "host/detect/rescore_in_views.h"
 #include "host/detect/search_space.h"
 #include "host/register/depth_evidence.h"
-#include "host/register/pose_classifier.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -122,7 +121,7 @@ std::vector<Detection> refined_candidates(const Scene& scene, std::span<const Te
     const auto object = std::size_t(estimate.object);
     // Further images may move a pose from beside the prior into it.
     const SearchSlack slack{thresholds::SAME_POSE * scene.models[object].mesh.diameter_m};
-    const PoseFeatures pooled = pool_over_views(estimate.features);
+    const PoseFeatures& pooled = estimate.classification.pooled;
     if (pooled.matched == 0 || is_contradicted(pooled.depth) ||
         !spaces[object].admits(estimate.world_from_object, slack))
       continue;

@@ -64,6 +64,7 @@ PoseEstimate best_estimate(const Mode& mode, std::span<const Particle> particles
   estimate.world_from_object = best.world_from_object;
   estimate.covariance = best.covariance;
   estimate.features = best.features;
+  classify(estimate);
   return estimate;
 }
 

@@ -9,8 +9,7 @@ AdmittedSearch::AdmittedSearch(const SearchedScale& scale, const ObjectView& vie
     : scale_(scale),
       anchor_step_(options.anchor_step),
       space_(options.world, scale.set.model, view.camera_from_world),
-      depth_(scale, view, options.anchor_step),
-      is_everywhere_(space_.is_everywhere() && !view.depth) {}
+      depth_(scale, view, options.anchor_step) {}
 
 std::vector<std::optional<ScanRegion>> AdmittedSearch::parts_of(const ScanRegion& region) const {
   std::vector<std::optional<ScanRegion>> parts;
@@ -20,7 +19,6 @@ std::vector<std::optional<ScanRegion>> AdmittedSearch::parts_of(const ScanRegion
 }
 
 bool AdmittedSearch::admits(const ScoredTemplate& scored) const {
-  if (is_everywhere_) return true;
   const std::size_t distance = scored.number % scale_.numbering.distances_m.size();
   if (!depth_.fits(distance, int(scored.anchor_px.x()), int(scored.anchor_px.y()))) return false;
   return space_.is_everywhere() ||
@@ -30,7 +28,6 @@ bool AdmittedSearch::admits(const ScoredTemplate& scored) const {
 
 std::optional<ScanRegion> AdmittedSearch::part_at(std::size_t distance,
                                                   const ScanRegion& region) const {
-  if (is_everywhere_) return region;
   const double distance_m = scale_.numbering.distances_m[distance];
   Eigen::AlignedBox2i part;  // column, row
   for (int row = 0; row < region.rows; ++row)

@@ -11,6 +11,7 @@
 
 namespace edgescout {
 
+// Of an image with a prior or with depth.
 class AdmittedSearch {
  public:
   AdmittedSearch(const SearchedScale& scale, const ObjectView& view, const ScanOptions& options);
@@ -33,7 +34,6 @@ class AdmittedSearch {
   int anchor_step_;
   SearchSpace space_;
   DepthPrior depth_;
-  bool is_everywhere_;
 };
 
 }  // namespace edgescout

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "host/detect/distinct_poses.h"
-#include "host/register/pose_classifier.h"
 #include "host/register/thresholds.h"
 
 namespace edgescout {
@@ -19,7 +18,7 @@ std::vector<AlternativePose> alternatives_of(const Detection& detection,
   for (const PoseEstimate& pose : competing) {
     if (pose.object != detection.object) continue;
     const double offset_m = (pose.world_from_object * set.model.center_m - center_m).norm(),
-                 probability = PoseClassifier::probability(pose.features);
+                 probability = pose.classification.probability;
     if (offset_m < thresholds::ALTERNATIVE_CENTER * mesh.diameter_m &&
         probability >= ALTERNATIVE_PROBABILITY * detection.probability)
       here.push_back({pose.world_from_object, probability});

@@ -38,7 +38,8 @@ struct ScannedPoints {
 class RegionScan {
  public:
   // `hits` is memory that the scans of an image share.
-  RegionScan(const SearchedScale& scale, const AdmittedSearch& admitted,
+  // `admitted`: null where everything is.
+  RegionScan(const SearchedScale& scale, const AdmittedSearch* admitted,
              std::span<const ScanRegion> regions, Backend& backend, const ScanOptions& options,
              Unfilled<TemplateHit>& hits)
       : scale_(scale), admitted_(admitted), backend_(backend), options_(options), hits_(hits) {
@@ -65,7 +66,9 @@ class RegionScan {
 
   // One that the prior leaves anchors of.
   void add_region(const ScanRegion& region) {
-    const std::vector<std::optional<ScanRegion>> parts = admitted_.parts_of(region);
+    const std::vector<std::optional<ScanRegion>> parts =
+        admitted_ ? admitted_->parts_of(region)
+                  : std::vector<std::optional<ScanRegion>>(distances_m_.size(), region);
     if (std::ranges::none_of(parts, &std::optional<ScanRegion>::has_value)) return;
     const Eigen::Vector3f ray =
         ray_through(scale_.level.camera, region.middle).normalized().cast<float>();
@@ -137,7 +140,7 @@ class RegionScan {
       const RankedPlace ranked =
           ranked_place(scan, scan.number(region, place), place, hits[place].sum);
       if (best.size() == most && is_better(best.front(), ranked)) continue;
-      if (!admitted_.admits(scored_template(ranked, hits))) continue;
+      if (admitted_ && !admitted_->admits(scored_template(ranked, hits))) continue;
       if (best.size() == most) {
         std::ranges::pop_heap(best, better);
         best.pop_back();
@@ -192,7 +195,7 @@ class RegionScan {
   }
 
   const SearchedScale& scale_;
-  const AdmittedSearch& admitted_;
+  const AdmittedSearch* admitted_;
   Backend& backend_;
   const ScanOptions& options_;
   Unfilled<TemplateHit>& hits_;  // of the last scan and, behind them, of longer ones
@@ -234,11 +237,6 @@ std::size_t level_of_scale(const TemplateSet& set, int scale, const ObjectView& 
   return level_for(size_px(set.model.mesh.diameter_m, distance_m, view.camera), view);
 }
 
-std::size_t share_of_scale(std::size_t of_one, const TemplateSet& set) {
-  const double scales = double(distance_scales(set.options).size());
-  return std::size_t(std::ceil(double(of_one) / std::sqrt(scales)));
-}
-
 std::vector<ScanHit> coarse_scan(const TemplateSet& set, const ObjectView& view, Backend& backend,
                                  const ScanOptions& options, const TimeLimit* limit) {
   check(options.points >= 4 && options.points <= int(TEMPLATE_SCORE_MAX_POINTS),
@@ -251,13 +249,16 @@ std::vector<ScanHit> coarse_scan(const TemplateSet& set, const ObjectView& view,
   for (int scale = 0; scale < scales; ++scale) {
     const SearchedScale searched(set, scale, view);
     const std::vector<ScanRegion> regions = cut_into_regions(view, searched.level, options);
-    const AdmittedSearch admitted(searched, view, options);
-    const auto of_admitted = std::size_t(std::ceil(double(of_scale) * admitted.share()));
+    std::optional<AdmittedSearch> admitted;
+    if (options.world.is_given() || view.depth) admitted.emplace(searched, view, options);
+    const double share = admitted ? admitted->share() : 1;
+    const auto of_admitted = std::size_t(std::ceil(double(of_scale) * share));
     const std::size_t most = (of_admitted + regions.size() - 1) / regions.size();
     for (const std::span<const ScanRegion> part : parts_between_checks(regions, limit)) {
       if (limit && limit->is_over()) return hits;
-      std::vector<ScanHit> of_part =
-          RegionScan(searched, admitted, part, backend, options, of_templates).best(most);
+      std::vector<ScanHit> of_part = RegionScan(searched, admitted ? &*admitted : nullptr, part,
+                                                backend, options, of_templates)
+                                         .best(most);
       if (hits.empty())
         hits = std::move(of_part);
       else

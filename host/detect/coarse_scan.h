@@ -56,7 +56,10 @@ std::size_t level_of_scale(const TemplateSet& set, int scale, const ObjectView& 
 // How many hits or poses each scale of a set gets, where a set of one scale gets `of_one`. Four
 // scales get twice as many together: enough that few are lost, at twice the time of their
 // alignment.
-std::size_t share_of_scale(std::size_t of_one, const TemplateSet& set);
+inline std::size_t share_of_scale(std::size_t of_one, const TemplateSet& set) {
+  const double scales = double(distance_scales(set.options).size());
+  return std::size_t(std::ceil(double(of_one) / std::sqrt(scales)));
+}
 
 // The best hits of every scale and region of the image, best first within a region.
 //

@@ -1,14 +1,14 @@
 #include "host/detect/detect.h"
 
-#include "host/detect/keyed_poses.h"
+#include <optional>
+
 #include "host/detect/distinct_poses.h"
+#include "host/detect/keyed_poses.h"
 #include "host/detect/search_space.h"
 #include "host/detect/support_views.h"
-#include "host/detect/template_points.h"
 #include "host/detect/template_support.h"
 #include "host/register/coarse_registration.h"
 #include "host/register/pose_classifier.h"
-#include "host/register/shading.h"
 #include "host/register/thresholds.h"
 
 namespace edgescout {
@@ -22,16 +22,11 @@ std::vector<T> entries_at(const std::vector<std::size_t>& indices, const std::ve
   return chosen;
 }
 
-// Whether a pose in the frame of this camera lies within a fraction of the object's diameter of a
-// known instance.
-PoseFilter within_known(std::span<const Se3> known_in_world, const TemplateSet& set,
-                        const Se3& camera_from_world, double fraction) {
+KnownPoses known_in_camera(std::span<const Se3> known_in_world, const TemplateSet& set,
+                           const Se3& camera_from_world) {
   std::vector<Se3> in_camera;
   for (const Se3& pose : known_in_world) in_camera.push_back(camera_from_world * pose);
-  return [known = KnownPoses(in_camera, set.model.mesh, set.symmetries),
-          radius_m = fraction * set.model.mesh.diameter_m](const Se3& camera_from_object) {
-    return known.any_within(radius_m, camera_from_object);
-  };
+  return {in_camera, set.model.mesh, set.symmetries};
 }
 
 // The searched view and those that support it. The camera frame of the searched one is the world.
@@ -56,9 +51,17 @@ class Cascade {
         limit_(search.limit),
         options_(options),
         views_(views_around(search.view, search.support)),
-        is_known_(within_known(known_in_world, set_, search.view.camera_from_world,
-                               thresholds::SAME_POSE)),
-        space_(options.scan.world, set_.model, search.view.camera_from_world) {}
+        known_(known_in_camera(known_in_world, set_, search.view.camera_from_world)) {
+    if (options.scan.world.is_given())
+      space_.emplace(options.scan.world, set_.model, search.view.camera_from_world);
+  }
+
+  // Drops those that alignment would move to a known instance.
+  void drop_near_known(std::vector<ScanHit>& hits) const {
+    std::erase_if(hits, [&](const ScanHit& hit) {
+      return is_known(hit.pose.world_from_object, thresholds::NEAR_KNOWN);
+    });
+  }
 
   // The best distinct hits of every scale.
   std::vector<ObjectPose> starts(std::span<const ScanHit> hits) const {
@@ -82,13 +85,7 @@ class Cascade {
 
   // Aligns the starts' templates on the coarse tensors.
   std::vector<PoseEstimate> coarse(std::span<const ObjectPose> starts) const {
-    return register_coarsely(scene_of(views_), starts, [&](const Scene& on_level, auto poses) {
-      const auto find_points = [&](std::span<const ObjectPose> at, const D2coRound& round) {
-        return template_points(set_, on_level.views, at,
-                               {round.max_points, round.max_surface_points, true}, backend_);
-      };
-      return register_points(on_level, poses, find_points, options_.coarse);
-    });
+    return register_coarsely(scene_of(views_), set_, starts, options_.coarse);
   }
 
   // Indices of the aligned poses that enter the medium stage, best first.
@@ -98,7 +95,8 @@ class Cascade {
       keys.push_back(-PoseClassifier::rank(features));
     const std::size_t most =
         number(is_joint() ? options_.medium_poses_joint : options_.medium_poses);
-    return best_admitted(aligned, keys, set_.options.distance_ratio, most);
+    return best_admitted(aligned, keys,
+                         {.most = most, .distance_ratio = set_.options.distance_ratio});
   }
 
   // Aligns poses on the full tensors and measures their features.
@@ -107,33 +105,32 @@ class Cascade {
     std::vector<ObjectPose> starts;
     for (const std::size_t i : indices) starts.push_back(aligned[i]);
     std::vector<PoseEstimate> poses = register_poses(scene_of(views_), starts, options_.medium);
-    drop_known(poses);
     measure_features(scene_of(views_), poses, {options_.refine.score, options_.medium.visibility});
     return poses;
   }
 
-  // The highest ranks among distinct poses.
+  // The highest ranks among distinct poses of unknown instances.
   std::vector<PoseEstimate> candidates(const std::vector<PoseEstimate>& aligned) const {
     std::vector<double> keys;
-    for (const PoseEstimate& pose : aligned) keys.push_back(-PoseClassifier::rank(pose.features));
-    return entries_at(best_admitted(aligned, keys, 1, std::size_t(options_.candidates)), aligned);
+    for (const PoseEstimate& pose : aligned) keys.push_back(-pose.classification.rank);
+    return entries_at(
+        best_admitted(aligned, keys,
+                      {.most = std::size_t(options_.candidates), .drops_known = true}),
+        aligned);
   }
 
   std::vector<PoseEstimate> fine(const std::vector<PoseEstimate>& candidates) const {
     RefineOptions refine = options_.refine;
     if (is_joint()) refine.search.rotation_rad = 0;  // several views bring starts near enough
-    std::vector<PoseEstimate> refined =
-        refine_poses(scene_of(views_), object_poses(candidates), refine);
-    drop_known(refined);
-    return refined;
+    return refine_poses(scene_of(views_), object_poses(candidates), refine);
   }
 
-  // Distinct poses, most probable first.
+  // Distinct poses of unknown instances, most probable first.
   std::vector<PoseEstimate> most_probable(const std::vector<PoseEstimate>& refined) const {
     std::vector<double> keys;
-    for (const PoseEstimate& pose : refined)
-      keys.push_back(-PoseClassifier::probability(pose.features));
-    return entries_at(best_admitted(refined, keys, 1, refined.size()), refined);
+    for (const PoseEstimate& pose : refined) keys.push_back(-pose.classification.probability);
+    return entries_at(best_admitted(refined, keys, {.most = refined.size(), .drops_known = true}),
+                      refined);
   }
 
  private:
@@ -157,26 +154,35 @@ class Cascade {
            distance_m < set_.options.distance_max_m * thresholds::DISTANCE_SLACK;
   }
 
+  bool is_known(const Se3& camera_from_object, double of_diameter) const {
+    return known_.any_within(of_diameter * set_.model.mesh.diameter_m, camera_from_object);
+  }
+
+  // Which poses a stage takes.
+  struct Intake {
+    std::size_t most;
+    double distance_ratio = 1;  // as SearchSlack: registration may still move a pose so far
+    bool drops_known = false;
+  };
+
   // The best distinct poses of those at a searched distance that the prior admits or that may still
   // be moved there.
   std::vector<std::size_t> best_admitted(const std::vector<PoseEstimate>& poses,
-                                         const std::vector<double>& keys, double distance_ratio,
-                                         std::size_t most) const {
-    const SearchSlack slack{thresholds::SAME_POSE * set_.model.mesh.diameter_m, distance_ratio};
+                                         const std::vector<double>& keys,
+                                         const Intake& intake) const {
+    const SearchSlack slack{thresholds::SAME_POSE * set_.model.mesh.diameter_m,
+                            intake.distance_ratio};
     std::vector<std::size_t> indices;
     KeyedPoses admitted;
-    for (std::size_t i = 0; i < poses.size(); ++i)
-      if (is_at_searched_distance(poses[i].world_from_object) &&
-          space_.admits(poses[i].world_from_object, slack)) {
-        indices.push_back(i);
-        admitted.add(poses[i].world_from_object, keys[i]);
-      }
-    return entries_at(admitted.best_distinct_of(set_, most), indices);
-  }
-
-  void drop_known(std::vector<PoseEstimate>& poses) const {
-    std::erase_if(poses,
-                  [&](const PoseEstimate& pose) { return is_known_(pose.world_from_object); });
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const Se3& pose = poses[i].world_from_object;
+      if (!is_at_searched_distance(pose) || (space_ && !space_->admits(pose, slack)) ||
+          (intake.drops_known && is_known(pose, thresholds::SAME_POSE)))
+        continue;
+      indices.push_back(i);
+      admitted.add(pose, keys[i]);
+    }
+    return entries_at(admitted.best_distinct_of(set_, intake.most), indices);
   }
 
   const TemplateSet& set_;
@@ -184,21 +190,19 @@ class Cascade {
   const TimeLimit* limit_;
   const DetectOptions& options_;
   std::vector<ObjectView> views_;  // the searched view first; its camera frame is the world
-  PoseFilter is_known_;
-  SearchSpace space_;
+  KnownPoses known_;
+  std::optional<SearchSpace> space_;  // none: no prior is given
 };
 
 ObjectSearch with_support(const ObjectSearch& search, std::span<const ObjectView> support) {
   return {search.set, search.view, support, search.backend, search.watch, search.limit};
 }
 
-// From hits that are rescored in the supporting views of `search`.
-std::vector<PoseEstimate> run_cascade(const ObjectSearch& search, std::span<const ScanHit> hits,
-                                      std::span<const Se3> known_in_world,
-                                      const DetectOptions& options, SearchTrace* trace = nullptr) {
-  const Cascade cascade(search, known_in_world, options);
+// From hits that are rescored in the supporting views.
+std::vector<PoseEstimate> run_cascade(const Cascade& cascade, std::span<const ScanHit> hits,
+                                      Stopwatch* watch, SearchTrace* trace = nullptr) {
   const auto lap = [&](const char* stage) {
-    if (search.watch) search.watch->lap(stage);
+    if (watch) watch->lap(stage);
   };
   lap("scan");
   SearchTrace stages;
@@ -221,25 +225,12 @@ std::vector<PoseEstimate> run_cascade(const ObjectSearch& search, std::span<cons
 
 }  // namespace
 
-Detection to_detection(const PoseEstimate& estimate) {
-  const PoseFeatures features = pool_over_views(estimate.features);
-  Detection d;
-  d.object = estimate.object;
-  d.world_from_object = estimate.world_from_object;
-  d.covariance = estimate.covariance;
-  d.probability = PoseClassifier::probability(estimate.features);
-  d.psi = features.psi;
-  d.cost_px = features.mean_px;
-  d.matched_fraction = features.matched;
-  d.psi_z_score = psi_z_score(features);
-  d.unexplained_grey = unexplained_grey(features.shading);
-  d.convergence = to_string(estimate.convergence);
-  return d;
-}
-
 PoseFilter near_known(std::span<const Se3> known_in_world, const TemplateSet& set,
                       const Se3& camera_from_world) {
-  return within_known(known_in_world, set, camera_from_world, thresholds::NEAR_KNOWN);
+  return
+      [known = known_in_camera(known_in_world, set, camera_from_world),
+       radius_m = thresholds::NEAR_KNOWN * set.model.mesh.diameter_m](
+          const Se3& camera_from_object) { return known.any_within(radius_m, camera_from_object); };
 }
 
 std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
@@ -251,10 +242,9 @@ std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
   std::vector<ScanHit> hits = rescore_in_views(
       supported, coarse_scan(search.set, search.view, search.backend, options.scan, search.limit),
       options.scan);
-  std::erase_if(hits,
-                [is_near = near_known(known_in_world, search.set, search.view.camera_from_world)](
-                    const ScanHit& hit) { return is_near(hit.pose.world_from_object); });
-  return run_cascade(supported, hits, known_in_world, options, trace);
+  const Cascade cascade(supported, known_in_world, options);
+  cascade.drop_near_known(hits);
+  return run_cascade(cascade, hits, search.watch, trace);
 }
 
 std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
@@ -263,7 +253,8 @@ std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
                                           const DetectOptions& options) {
   const std::vector<ObjectView> support =
       support_views(search.view, search.support, std::size_t(options.support_views));
-  return run_cascade(with_support(search, support), rescored, known_in_world, options);
+  const Cascade cascade(with_support(search, support), known_in_world, options);
+  return run_cascade(cascade, rescored, search.watch);
 }
 
 }  // namespace edgescout

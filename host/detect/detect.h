@@ -13,13 +13,10 @@
 #include "host/detect/detect_options.h"
 #include "host/detect/detect_trace.h"
 #include "host/detect/rescore_in_views.h"
+#include "host/detect/select_detections.h"
 #include "host/register/refine.h"
 
 namespace edgescout {
-
-// Returns the detection that an estimate with features makes. Its probability is of all views of
-// them.
-Detection to_detection(const PoseEstimate& estimate);
 
 // Returns the test whether a pose in the frame of this camera lies so near a known instance
 // (thresholds::NEAR_KNOWN) that alignment would move it there.
@@ -32,7 +29,7 @@ PoseFilter near_known(std::span<const Se3> known_in_world, const TemplateSet& se
 // At most options.support_views of search.support are chosen (support_views.h). They take part in
 // all stages: hits are rescored in them and poses are registered in them. Features hold search.view
 // first, then the chosen views. `known_in_world` are instances that need not be found again: hits
-// near them are not aligned, and poses that end within SAME_POSE of one are dropped. Poses that
+// near them are not aligned, and poses within SAME_POSE of one are no candidates. Poses that
 // options.scan.world excludes are dropped between the stages; those within SAME_POSE of the prior
 // remain, since registration over more images may move them there. `trace`, where given, receives
 // what every stage held. `search.watch`, where given, laps "scan", "coarse", "medium" and "fine".

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <unordered_set>
 
-#include "host/register/pose_classifier.h"
 #include "host/register/visible_in_views.h"
 #include "kernels/pose_geometry.h"
 #include "kernels/thread_pool.h"
@@ -62,16 +61,6 @@ std::vector<std::vector<ExplainedEdge>> explained_edges(const Scene& scene,
   return explained;
 }
 
-// More than chance in all views together, or clearly so in two of them: other objects may hide the
-// pose from the rest.
-bool exceeds_chance(std::span<const PoseFeatures> by_view) {
-  constexpr double clear_z_score = 2;  // standard errors
-  return psi_z_score(pool_over_views(by_view)) > 0 ||
-         std::ranges::count_if(by_view, [](const PoseFeatures& features) {
-           return psi_z_score(features) > clear_z_score;
-         }) > 1;
-}
-
 class ClaimedEdges {
  public:
   ClaimedEdges(std::span<const ObjectView> views, double match_px)
@@ -114,16 +103,15 @@ std::vector<Competitor> competitors_of(const Scene& scene, std::span<const PoseE
   std::vector<std::size_t> indices;
   std::vector<ObjectPose> competing;
   for (std::size_t p = 0; p < poses.size(); ++p)
-    if (exceeds_chance(poses[p].features)) {
+    if (poses[p].classification.has_psi_above_chance) {
       indices.push_back(p);
       competing.push_back(poses[p]);
     }
   std::vector<std::vector<ExplainedEdge>> explained = explained_edges(scene, competing, options);
   std::vector<Competitor> competitors;
   for (std::size_t i = 0; i < indices.size(); ++i)
-    competitors.push_back({{indices[i], 1},
-                           std::move(explained[i]),
-                           PoseClassifier::probability(poses[indices[i]].features)});
+    competitors.push_back(
+        {{indices[i], 1}, std::move(explained[i]), poses[indices[i]].classification.probability});
   return competitors;
 }
 

@@ -197,7 +197,7 @@ class LostPose {
     if (!competing) return selection;
     const PoseEstimate& pose = stages_.competing.poses[*competing];
     selection.competes = true;
-    selection.above_chance = psi_z_score(pool_over_views(pose.features)) > 0;
+    selection.above_chance = pose.classification.psi_z_score > 0;
     const std::vector<PoseEstimate> selected = selected_estimates(stages_.selection);
     std::vector<ObjectPose> others;
     for (std::size_t i = 0; i < selected.size(); ++i)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/register/pose_classifier.h"
 #include "host/register/thresholds.h"
 
 namespace edgescout {
@@ -31,10 +30,8 @@ SamePose near_the(const ObjectPose& given, const TemplateSet& set, const Camera&
 
 }  // namespace
 
-double rank_of(const PoseEstimate& pose) { return PoseClassifier::rank(pose.features); }
-double probability_of(const PoseEstimate& pose) {
-  return PoseClassifier::probability(pose.features);
-}
+double rank_of(const PoseEstimate& pose) { return pose.classification.rank; }
+double probability_of(const PoseEstimate& pose) { return pose.classification.probability; }
 
 std::size_t HeldPoses::count_same() const {
   return std::size_t(std::ranges::count_if(of_bounds, [](double error) { return error < 1; }));
@@ -78,7 +75,7 @@ FoundPose GivenPose::found(const PoseEstimate& pose) const {
   const bool is_other = pose.object != given_.object;
   return {pose, is_other ? PoseError{} : is_same_.error(camera_from_object),
           is_other ? 0 : is_same_.mspd_px(camera_from_object), probability_of(pose),
-          pool_over_views(pose.features)};
+          pose.classification.pooled};
 }
 
 std::optional<FoundPose> GivenPose::found(const HeldPoses& held,

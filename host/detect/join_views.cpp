@@ -1,7 +1,6 @@
 #include "host/detect/join_views.h"
 
 #include "host/detect/distinct_poses.h"
-#include "host/register/pose_classifier.h"
 #include "host/register/thresholds.h"
 
 namespace edgescout {
@@ -24,7 +23,7 @@ std::vector<ObjectPose> merge_candidates(std::span<const ObjectView> views, int 
     for (const PoseEstimate& candidate : candidates(v, std::size_t(object))) {
       world_from_object.push_back(inverse(views[v].camera_from_world) *
                                   candidate.world_from_object);
-      keys.push_back(-PoseClassifier::probability(candidate.features));
+      keys.push_back(-candidate.classification.probability);
     }
   const double radius_m = thresholds::SAME_ACROSS_VIEWS * set.model.mesh.diameter_m;
   std::vector<ObjectPose> merged;

@@ -12,7 +12,6 @@
 
 #include "host/core/order.h"
 #include "host/model/viewpoints.h"
-#include "host/register/pose_classifier.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
 
@@ -225,10 +224,8 @@ std::vector<double> probabilities_without_collisions(std::span<const EdgeModel> 
   std::vector<ObjectPose> placed;  // poses that several views inform
   std::vector<std::size_t> placed_index;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    probabilities.push_back(PoseClassifier::probability(poses[i].features));
-    if (probabilities[i] < negligible ||
-        std::ranges::count_if(poses[i].features, is_informative) < 2)
-      continue;
+    probabilities.push_back(poses[i].classification.probability);
+    if (probabilities[i] < negligible || poses[i].classification.informative_views < 2) continue;
     of_placed.push_back(probabilities[i]);
     placed.push_back(poses[i]);
     placed_index.push_back(i);

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include "host/detect/detect.h"
 #include "host/detect/search_space.h"
-#include "host/register/pose_classifier.h"
 
 namespace edgescout {
 
@@ -21,19 +19,23 @@ double least_competing(const DetectOptions& options) {
 class Competitors {
  public:
   Competitors(const Scene& scene, const DetectOptions& options)
-      : spaces_(search_spaces(options.scan.world, scene.models)),
-        least_probability_(least_competing(options)) {}
+      : least_probability_(least_competing(options)) {
+    if (options.scan.world.is_given()) spaces_ = search_spaces(options.scan.world, scene.models);
+  }
 
   void append(std::span<const PoseEstimate> poses) {
     for (const PoseEstimate& pose : poses)
-      if (PoseClassifier::probability(pose.features) >= least_probability_ &&
-          spaces_[std::size_t(pose.object)].admits(pose.world_from_object))
+      if (pose.classification.probability >= least_probability_ && is_admitted(pose))
         poses_.push_back(pose);
   }
   const std::vector<PoseEstimate>& poses() const { return poses_; }
 
  private:
-  std::vector<SearchSpace> spaces_;  // by object
+  bool is_admitted(const ObjectPose& pose) const {
+    return spaces_.empty() || spaces_[std::size_t(pose.object)].admits(pose.world_from_object);
+  }
+
+  std::vector<SearchSpace> spaces_;  // by object; empty: no prior is given
   double least_probability_;
   std::vector<PoseEstimate> poses_;
 };
@@ -59,6 +61,22 @@ std::vector<Detection> select(const Scene& scene, std::span<const PoseEstimate> 
 }
 
 }  // namespace
+
+Detection to_detection(const PoseEstimate& estimate) {
+  const PoseClassification& classification = estimate.classification;
+  Detection d;
+  d.object = estimate.object;
+  d.world_from_object = estimate.world_from_object;
+  d.covariance = estimate.covariance;
+  d.probability = classification.probability;
+  d.psi = classification.pooled.psi;
+  d.cost_px = classification.pooled.mean_px;
+  d.matched_fraction = classification.pooled.matched;
+  d.psi_z_score = classification.psi_z_score;
+  d.unexplained_grey = classification.unexplained_grey;
+  d.convergence = to_string(estimate.convergence);
+  return d;
+}
 
 std::vector<Detection> select_detections(const Scene& scene,
                                          std::span<const PoseEstimate> candidates,

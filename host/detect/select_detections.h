@@ -9,6 +9,10 @@
 
 namespace edgescout {
 
+// Returns the detection that an estimate with features makes. Its probability is of all views of
+// them.
+Detection to_detection(const PoseEstimate& estimate);
+
 // `candidates` are of all objects, in the world of scene.views, with features. Most probable first.
 //
 // 1. Keeps the candidates of at least 0.05, or options.min_probability if that is less, that

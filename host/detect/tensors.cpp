@@ -1,5 +1,7 @@
 #include "host/detect/tensors.h"
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "host/edge/salient_edges.h"
@@ -84,6 +86,10 @@ void add_tensors(ObjectView& view, const std::set<double>& reductions, Backend& 
 }
 
 }  // namespace
+
+double reduction_for(double size_px) {
+  return std::clamp(std::round(size_px / REDUCED_SIZE_PX), 1.0, 8.0);
+}
 
 void add_tensors(ObjectView& view, double reduction, Backend& backend,
                  const TensorOptions& options) {

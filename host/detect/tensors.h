@@ -20,6 +20,9 @@ void describe(TensorOptions& options, OptionVisitor& visit);
 // Names the part of them that other verbs also have: without bins and lambda, and without a group.
 void describe_values(TensorOptions& options, OptionVisitor& visit);
 
+// Returns the reduction that makes `size_px` some REDUCED_SIZE_PX: a whole number in [1, 8].
+double reduction_for(double size_px);
+
 // Builds the tensors of a view, whose image and edges are set (pipeline.h: prepare_view). Reduces
 // by what suits each object at each of its scales (distance_scales). LogicError: no templates, a
 // camera pose that is not finite.

@@ -42,4 +42,13 @@ std::vector<PoseEstimate> register_coarsely(const Scene& scene, std::span<const 
                            });
 }
 
+std::vector<PoseEstimate> register_coarsely(const Scene& scene, const TemplateSet& set,
+                                            std::span<const ObjectPose> starts,
+                                            const D2coOptions& options) {
+  return register_coarsely(scene, starts,
+                           [&](const Scene& on_level, std::span<const ObjectPose> poses) {
+                             return register_on_templates(on_level, set, poses, options);
+                           });
+}
+
 }  // namespace edgescout

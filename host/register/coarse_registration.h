@@ -25,5 +25,9 @@ std::vector<PoseEstimate> register_coarsely(const Scene& scene, std::span<const 
 // The same by register_poses.
 std::vector<PoseEstimate> register_coarsely(const Scene& scene, std::span<const ObjectPose> starts,
                                             const D2coOptions& options);
+// The same by register_on_templates: the poses are of the set's object.
+std::vector<PoseEstimate> register_coarsely(const Scene& scene, const TemplateSet& set,
+                                            std::span<const ObjectPose> starts,
+                                            const D2coOptions& options);
 
 }  // namespace edgescout

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "host/register/d2co_ceres.h"
 #include "host/register/depth_systems.h"
 #include "host/register/lm_state.h"
 #include "host/register/points_in_image.h"
+#include "host/register/template_points.h"
 #include "host/register/visible_in_views.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
@@ -27,8 +29,8 @@ class Evaluator {
       : ranges_(std::move(visible.edges.ranges)),
         points_(scene.backend.make_pose_points(std::move(visible.edges.points))),
         scene_(scene),
-        loss_{round.loss, float(round.scale_px)},
-        depth_(scene, std::move(visible.surface), round.depth_sigmas) {
+        loss_{round.loss, float(round.scale_px)} {
+    if (scene.has_depth()) depth_.emplace(scene, std::move(visible.surface), round.depth_sigmas);
     for (const ObjectView& view : scene.views) tensors_.push_back(view.tensor);
   }
 
@@ -57,7 +59,7 @@ class Evaluator {
       for (std::size_t v = 0; v < views.size(); ++v)
         add_view(system, results_[i * views.size() + v], views[v].camera_from_world);
     });
-    depth_.add_at_trials(states, systems_);
+    if (depth_) depth_->add_at_trials(states, systems_);
     return systems_;
   }
 
@@ -66,7 +68,7 @@ class Evaluator {
   PosePointsHandle points_;
   const Scene& scene_;
   PoseLoss loss_;
-  DepthSystems depth_;
+  std::optional<DepthSystems> depth_;
   std::vector<ViewHandle> tensors_;
   std::vector<PoseProblem> problems_;
   std::vector<NormalEquations> results_;
@@ -134,6 +136,16 @@ std::vector<PoseEstimate> register_poses(const Scene& scene, std::span<const Obj
         points_of(visible, &VisibleInView::surface, round.max_surface_points, threads)};
   };
   return register_points(scene, starts, find_visible, options);
+}
+
+std::vector<PoseEstimate> register_on_templates(const Scene& scene, const TemplateSet& set,
+                                                std::span<const ObjectPose> starts,
+                                                const D2coOptions& options) {
+  const auto look_up = [&](std::span<const ObjectPose> poses, const D2coRound& round) {
+    const WantedPoints wanted{round.max_points, round.max_surface_points, true};
+    return template_points(set, scene.views, poses, wanted, scene.backend).visible;
+  };
+  return register_points(scene, starts, look_up, options);
 }
 
 std::vector<PoseEstimate> register_points(const Scene& scene, std::span<const ObjectPose> starts,

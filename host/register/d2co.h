@@ -20,10 +20,20 @@
 
 namespace edgescout {
 
+struct TemplateSet;
+
 // Estimates in the order of the starts, without features. InputError: options out of bounds;
 // LogicError: no view, a view or a start whose pose is not finite, an object without a model.
 std::vector<PoseEstimate> register_poses(const Scene& scene, std::span<const ObjectPose> starts,
                                          const D2coOptions& options = {});
+
+// As register_poses for the poses of one object, on points that are looked up in its templates
+// (template_points.h). register_poses draws depth maps to find them, which costs more than a short
+// registration itself. scene.models holds the model of the set. Ignores D2coOptions::visibility and
+// D2coOptions::solver.
+std::vector<PoseEstimate> register_on_templates(const Scene& scene, const TemplateSet& set,
+                                                std::span<const ObjectPose> starts,
+                                                const D2coOptions& options = {});
 
 // What is visible of poses in views, object frame.
 struct VisiblePoints {
@@ -34,10 +44,8 @@ struct VisiblePoints {
 using FindPoints =
     std::function<VisiblePoints(std::span<const ObjectPose> poses, const D2coRound& round)>;
 
-// As register_poses, with points that the caller looks up before every round. register_poses draws
-// depth maps to find them, which costs more than a short registration itself. Of scene.models only
-// the diameters count. Ignores D2coOptions::visibility and D2coOptions::solver. LogicError besides:
-// ranges of another number of poses or views.
+// The same with points that the caller looks up before every round. Of scene.models only the
+// diameters count. LogicError besides: ranges of another number of poses or views.
 std::vector<PoseEstimate> register_points(const Scene& scene, std::span<const ObjectPose> starts,
                                           const FindPoints& find_points,
                                           const D2coOptions& options = {});

@@ -69,7 +69,6 @@ DepthSystems::DepthSystems(const Scene& scene, PointsInViews<SurfacePoint> surfa
       views_.push_back(v);
       depths_.push_back(scene.views[v].depth_values);
     }
-  if (views_.empty()) return;
   options_ = pose_depth_options(scene, REGISTRATION_BAND);
   options_.loss_scale = float(loss_sigmas);
   points_ = scene.backend.make_surface_points(std::move(surface.points));
@@ -77,7 +76,6 @@ DepthSystems::DepthSystems(const Scene& scene, PointsInViews<SurfacePoint> surfa
 
 void DepthSystems::add_at_trials(std::span<const LmState> states,
                                  std::span<WorldSystem> systems) const {
-  if (is_empty()) return;
   std::vector<PoseProblem> problems;
   std::vector<std::size_t> active;
   for (std::size_t p = 0; p < states.size(); ++p) {

@@ -14,10 +14,9 @@ namespace edgescout {
 // One standard deviation of a sample's distance counts as one pixel of an edge point's.
 class DepthSystems {
  public:
-  // `loss_sigmas`: scale of the loss, standard deviations. Views without depth take no part.
+  // `loss_sigmas`: scale of the loss, standard deviations. Views without depth take no part; there
+  // must be one with depth (Scene::has_depth).
   DepthSystems(const Scene& scene, PointsInViews<SurfacePoint> surface, double loss_sigmas);
-
-  bool is_empty() const { return views_.empty(); }
 
   // Adds to the systems of the active states those at their trial poses. States and systems are in
   // the order of the poses.

@@ -7,14 +7,6 @@
 
 namespace edgescout {
 
-namespace {
-constexpr double REDUCED_SIZE_PX = 48;
-}
-
-double reduction_for(double size_px) {
-  return std::clamp(std::round(size_px / REDUCED_SIZE_PX), 1.0, 8.0);
-}
-
 std::size_t level_for(double size_px, const ObjectView& view) {
   std::size_t best = 0;
   double least = INFINITY;

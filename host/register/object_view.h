@@ -40,10 +40,11 @@ struct ObjectView {
   std::shared_ptr<const Occluders> occluders;  // null: no known objects here
 };
 
-// Returns the reduction that makes `size_px` some 48 px: a whole number in [1, 8]. Fewer hold too
-// little shape, more cost more.
-double reduction_for(double size_px);
-// Returns the index of the view's reduction that does so best; 0 where it has no reduced tensors.
+// The size of an object on the reduced tensors, px. Fewer hold too little shape, more cost more.
+inline constexpr double REDUCED_SIZE_PX = 48;
+
+// Returns the index of the view's reduction that brings `size_px` nearest to that; 0 where it has
+// no reduced tensors.
 std::size_t level_for(double size_px, const ObjectView& view);
 
 // Returns the same views with the coarse tensor of a level in the place of the full one; a view

@@ -142,6 +142,14 @@ PoseFeatures pool_over_views(std::span<const PoseFeatures> by_view) {
   return sum;
 }
 
+bool has_psi_above_chance(std::span<const PoseFeatures> by_view) {
+  constexpr double clear_z_score = 2;  // standard errors
+  return psi_z_score(pool_over_views(by_view)) > 0 ||
+         std::ranges::count_if(by_view, [](const PoseFeatures& features) {
+           return psi_z_score(features) > clear_z_score;
+         }) > 1;
+}
+
 double PoseClassifier::rank(const PoseFeatures& features) {
   return has_image(features) ? weighted(features, weights::RANK_ONE_VIEW) : -features.mean_px;
 }
@@ -169,6 +177,22 @@ double PoseClassifier::probability(std::span<const PoseFeatures> by_view) {
   if (views.empty()) return 0;
   return views.size() == 1 ? probability(views[0])
                            : logistic(weighted(views, weights::SEVERAL_VIEWS));
+}
+
+void classify(PoseEstimate& estimate) {
+  estimate.classification = {};
+  const std::vector<PoseFeatures>& by_view = estimate.features;
+  if (by_view.empty()) return;
+  const PoseFeatures pooled = pool_over_views(by_view);
+  estimate.classification = {pooled,
+                             PoseClassifier::rank(by_view),
+                             PoseClassifier::rank(pooled),
+                             PoseClassifier::log_odds(pooled),
+                             PoseClassifier::probability(by_view),
+                             psi_z_score(pooled),
+                             unexplained_grey(pooled.shading),
+                             int(std::ranges::count_if(by_view, is_informative)),
+                             has_psi_above_chance(by_view)};
 }
 
 }  // namespace edgescout

@@ -38,6 +38,10 @@ bool is_informative(const PoseFeatures& features);
 // numbers of points, sums of counts.
 PoseFeatures pool_over_views(std::span<const PoseFeatures> by_view);
 
+// Returns whether psi lies above chance in all views together, or clearly so in two of them: other
+// objects may hide the pose from the rest.
+bool has_psi_above_chance(std::span<const PoseFeatures> by_view);
+
 struct PoseClassifier {
   // Returns the log-odds that registration can bring an aligned pose to a true one, from features
   // of one view or pooled ones. Without an image: minus the mean tensor value.
@@ -60,5 +64,8 @@ struct PoseClassifier {
   // surface that nothing hides. One informative view: as above; none: 0.
   static double probability(std::span<const PoseFeatures> by_view);
 };
+
+// Sets PoseEstimate::classification from the features.
+void classify(PoseEstimate& estimate);
 
 }  // namespace edgescout

@@ -42,6 +42,20 @@ struct PoseFeatures {
   DepthEvidence depth;   // zero where the view has no depth
 };
 
+// What PoseClassifier finds in the features of a pose (pose_classifier.h: classify). Without
+// features all is 0.
+struct PoseClassification {
+  PoseFeatures pooled;          // over all views
+  double rank = 0;              // PoseClassifier::rank of all views
+  double pooled_rank = 0;       // the same of the pooled features
+  double pooled_log_odds = 0;   // PoseClassifier::log_odds of the pooled features
+  double probability = 0;       // PoseClassifier::probability of all views
+  double psi_z_score = 0;       // of the pooled features
+  double unexplained_grey = 0;  // the same
+  int informative_views = 0;    // is_informative
+  bool has_psi_above_chance = false;
+};
+
 // Why the last stage of a registration stopped.
 enum class Convergence {
   Converged,       // the last step was small
@@ -67,6 +81,7 @@ struct PoseEstimate : ObjectPose {
   double last_step_px = 0;
   Convergence convergence = Convergence::NoPoints;
   std::vector<PoseFeatures> features;  // one per view; empty until measured (measure_features)
+  PoseClassification classification;   // of the features, set with them
 };
 
 // Returns the poses alone: starts for what comes next. Takes a range of ObjectPose or of what

@@ -79,7 +79,8 @@ Grid<PoseFeatures> features_by_view(const Scene& scene, std::span<const ObjectPo
                            options.score, scores);
   const Grid<Shading> shadings = shading(scene, poses);
   const Grid<EdgeSupport> supports = edge_support(scene, poses, visible);
-  const Grid<DepthEvidence> depths = depth_evidence(scene, poses, visible);
+  Grid<DepthEvidence> depths(poses.size(), scene.views.size());
+  if (scene.has_depth()) depths = depth_evidence(scene, poses, visible);
   const std::span<PoseFeatures> cells = features.values();
   for (std::size_t i = 0; i < cells.size(); ++i) {
     add_score(cells[i], scores[i], options.score.cap_px);
@@ -93,8 +94,10 @@ Grid<PoseFeatures> features_by_view(const Scene& scene, std::span<const ObjectPo
 void measure_features(const Scene& scene, std::span<PoseEstimate> poses,
                       const FeatureOptions& options) {
   const Grid<PoseFeatures> features = features_by_view(scene, object_poses(poses), options);
-  for (std::size_t p = 0; p < poses.size(); ++p)
+  for (std::size_t p = 0; p < poses.size(); ++p) {
     poses[p].features.assign(features.row(p).begin(), features.row(p).end());
+    classify(poses[p]);
+  }
 }
 
 std::vector<PoseFeatures> pooled_features(const Scene& scene, std::span<const ObjectPose> poses,

@@ -27,7 +27,7 @@ struct FeatureOptions {
 Grid<PoseFeatures> features_by_view(const Scene& scene, std::span<const ObjectPose> poses,
                                     const FeatureOptions& options = {});
 
-// Measures the same into PoseEstimate::features.
+// Measures the same into PoseEstimate::features and classifies them (pose_classifier.h).
 void measure_features(const Scene& scene, std::span<PoseEstimate> poses,
                       const FeatureOptions& options = {});
 

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "host/register/coarse_registration.h"
-#include "host/register/pose_classifier.h"
 #include "host/register/pose_tolerance.h"
-#include "host/register/probable_hops.h"
 #include "host/register/thresholds.h"
 #include "kernels/error.h"
 
@@ -42,8 +41,7 @@ struct SearchResult {
 
 // The poses of one start's search, ranked.
 struct RankedPoses {
-  std::span<const ObjectPose> poses;
-  std::span<const double> ranks;
+  std::span<const PoseEstimate> poses;
   std::vector<std::size_t> indices;  // of those of this start
 };
 
@@ -51,7 +49,7 @@ struct RankedPoses {
 void keep_best(SearchResult& result, RankedPoses ranked, const Scene& scene, std::size_t start,
                int num_kept) {
   std::ranges::stable_sort(ranked.indices, [&](std::size_t a, std::size_t b) {
-    return ranked.ranks[a] > ranked.ranks[b];
+    return ranked.poses[a].classification.pooled_rank > ranked.poses[b].classification.pooled_rank;
   });
   const std::size_t first = result.poses.size();
   for (const std::size_t i : ranked.indices) {
@@ -68,35 +66,39 @@ void keep_best(SearchResult& result, RankedPoses ranked, const Scene& scene, std
   }
 }
 
+// Measures the features at the poses where they are now.
+void measure(const Scene& scene, std::span<PoseEstimate> poses, const RefineOptions& options,
+             const D2coOptions& registered_by) {
+  measure_features(scene, poses, {options.score, registered_by.visibility});
+}
+
 // Registered poses of all turned starts, one start after the other, then the starts as given: the
-// coarse registration may lead a start away that fits already.
-std::vector<ObjectPose> search_poses(const Scene& scene, std::span<const ObjectPose> starts,
-                                     const SearchOptions& options) {
+// coarse registration may lead a start away that fits already. With features.
+std::vector<PoseEstimate> search_poses(const Scene& scene, std::span<const ObjectPose> starts,
+                                       const RefineOptions& options) {
+  const SearchOptions& search = options.search;
   std::vector<ObjectPose> turned;
   for (const ObjectPose& start : starts)
     for (const ObjectPose& pose :
          turned_starts(start, scene.models[std::size_t(start.object)],
-                       scene.views[0].camera_from_world, options.rotation_rad))
+                       scene.views[0].camera_from_world, search.rotation_rad))
       turned.push_back(pose);
-  std::vector<ObjectPose> poses = object_poses(register_coarsely(scene, turned, options.coarse));
-  poses.insert(poses.end(), starts.begin(), starts.end());
+  std::vector<PoseEstimate> poses = register_coarsely(scene, turned, search.coarse);
+  for (const ObjectPose& start : starts) static_cast<ObjectPose&>(poses.emplace_back()) = start;
+  measure(scene, poses, options, search.coarse);
   return poses;
 }
 
 SearchResult search(const Scene& scene, std::span<const ObjectPose> starts,
                     const RefineOptions& options) {
-  const std::vector<ObjectPose> poses = search_poses(scene, starts, options.search);
-  std::vector<double> ranks;
-  for (const PoseFeatures& features :
-       pooled_features(scene, poses, {options.score, options.search.coarse.visibility}))
-    ranks.push_back(PoseClassifier::rank(features));
+  const std::vector<PoseEstimate> poses = search_poses(scene, starts, options);
   const std::size_t turned = poses.size() - starts.size(), of_one = turned / starts.size();
   SearchResult result;
   for (std::size_t s = 0; s < starts.size(); ++s) {
     std::vector<std::size_t> indices(of_one);
     std::iota(indices.begin(), indices.end(), s * of_one);
     indices.push_back(turned + s);
-    keep_best(result, {poses, ranks, indices}, scene, s, options.search.num_kept);
+    keep_best(result, {poses, indices}, scene, s, options.search.num_kept);
   }
   return result;
 }
@@ -112,8 +114,7 @@ SearchResult without_search(std::span<const ObjectPose> starts) {
 // was chosen on the ends of 346 starts (docs/research/registration.md).
 double preference(const PoseEstimate& estimate) {
   constexpr double of_explained = 5;
-  return PoseClassifier::log_odds(pool_over_views(estimate.features)) +
-         of_explained * estimate.explained;
+  return estimate.classification.pooled_log_odds + of_explained * estimate.explained;
 }
 
 // The preferred estimate per start; the first of equal ones.
@@ -127,6 +128,60 @@ std::vector<PoseEstimate> best_per_start(std::span<const PoseEstimate> estimates
   }
   return best;
 }
+
+constexpr double LEAST_LOG_ODDS = -4;  // others hardly end above the default threshold
+
+// Estimates of one pose.
+struct DistinctPose {
+  std::size_t best;  // the most probable one
+  std::vector<std::size_t> others;
+};
+
+// The indices of probable estimates, most probable first.
+std::vector<std::size_t> probable(std::span<const PoseEstimate> estimates) {
+  const auto log_odds = [&](std::size_t i) { return estimates[i].classification.pooled_log_odds; };
+  std::vector<std::size_t> indices(estimates.size());
+  std::iota(indices.begin(), indices.end(), 0);
+  std::erase_if(indices, [&](std::size_t i) { return !(log_odds(i) >= LEAST_LOG_ODDS); });
+  std::ranges::stable_sort(indices, std::greater{}, log_odds);
+  return indices;
+}
+
+std::vector<DistinctPose> distinct(const Scene& scene, std::span<const PoseEstimate> estimates,
+                                   std::span<const std::size_t> best_first) {
+  std::vector<DistinctPose> poses;
+  for (const std::size_t i : best_first) {
+    const auto known = std::ranges::find_if(poses, [&](const DistinctPose& pose) {
+      return is_same_pose(estimates[pose.best], estimates[i], scene, thresholds::SAME_END);
+    });
+    if (known == poses.end())
+      poses.push_back({i, {}});
+    else
+      known->others.push_back(i);
+  }
+  return poses;
+}
+
+}  // namespace
+
+void hop_probable(const Scene& scene, std::span<PoseEstimate> estimates,
+                  const RefineOptions& options) {
+  const std::vector<DistinctPose> poses = distinct(scene, estimates, probable(estimates));
+  std::vector<PoseEstimate> hopping;
+  for (const DistinctPose& pose : poses) hopping.push_back(estimates[pose.best]);
+  const std::vector<std::size_t> moved = hop_basins(scene, hopping, options.edge_icp);
+  if (moved.empty()) return;
+  std::vector<PoseEstimate> ends;
+  for (const std::size_t i : moved) ends.push_back(hopping[i]);
+  measure(scene, ends, options, options.d2co);
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    const DistinctPose& pose = poses[moved[k]];
+    estimates[pose.best] = ends[k];
+    for (const std::size_t other : pose.others) estimates[other] = ends[k];
+  }
+}
+
+namespace {
 
 // The steps of the last stage need not become as small as its own limit: that would cost more
 // iterations than the pose is worth.
@@ -146,9 +201,9 @@ std::vector<PoseEstimate> refine_batch(const Scene& scene, std::span<const Objec
   if (options.search.rotation_rad == 0) d2co.rounds.insert(d2co.rounds.begin(), options.unsearched);
   std::vector<PoseEstimate> estimates = register_poses(scene, found.poses, d2co);
   if (options.use_edge_icp && !scene.is_time_over()) edge_icp(scene, estimates, options.edge_icp);
-  measure_features(scene, estimates, {options.score, options.d2co.visibility});
+  measure(scene, estimates, options, options.d2co);
   if (options.use_edge_icp && scene.views.size() == 1 && !scene.is_time_over())
-    hop_probable(scene, estimates, options.edge_icp, {options.score, options.d2co.visibility});
+    hop_probable(scene, estimates, options);
   set_converged(estimates);
   return best_per_start(estimates, found.start, starts.size());
 }

@@ -43,6 +43,15 @@ struct RefineOptions {
 
 void describe(RefineOptions& options, OptionVisitor& visit);
 
+// Lets the probable poses of one view hop to better optima beside them (hop_basins). Of estimates
+// with features, after edge_icp; measures the features of those that move anew. Many starts end at
+// one pose: one of them hops, the most probable one, and the others take its end.
+//
+// refine_poses does so in one view only: several show the tilt and the distance of a pose well
+// enough.
+void hop_probable(const Scene& scene, std::span<PoseEstimate> estimates,
+                  const RefineOptions& options);
+
 // Registers the starts and returns an estimate for each, in their order, with features. The first
 // view's camera frame turns the starts of the search. InputError: options out of bounds;
 // LogicError: no view.

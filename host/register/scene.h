@@ -3,6 +3,7 @@
 // Public header.
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "host/core/time_limit.h"
@@ -21,6 +22,11 @@ struct Scene {
   // Where it is over, registration makes no further iteration and searches around no start.
   const TimeLimit* limit = nullptr;  // null: none
   bool is_time_over() const { return limit && limit->is_over(); }
+  // Whether a view has the values of a depth image on the backend (add_tensors).
+  bool has_depth() const {
+    return std::ranges::any_of(views,
+                               [](const ObjectView& v) { return v.depth_values != nullptr; });
+  }
 };
 
 }  // namespace edgescout

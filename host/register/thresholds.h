@@ -13,7 +13,7 @@ struct PoseTolerance {
 // Poses of one start after its search (register/refine.h). Tight: the search exists to keep poses
 // apart that differ by little.
 inline constexpr PoseTolerance SAME_AFTER_SEARCH{0.03, 0.06};
-// Ends of registrations that have come to one optimum (register/probable_hops.h). Optima lie
+// Ends of registrations that have come to one optimum (register/refine.h: hop_probable). Optima lie
 // 0.01 rad apart, and from one a hop leads on where from the other it does not.
 inline constexpr PoseTolerance SAME_END{0.0015, 0.003};
 // Candidates that several views bring for joint refinement: one registered pose from two views lies

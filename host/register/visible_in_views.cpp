@@ -33,11 +33,9 @@ void fill_object(Grid<VisibleInView>& visible, const Scene& scene,
     }
   std::vector<SilhouetteMarks> marks;
   VisibleSurfaces surfaces;
-  const bool has_depth = std::ranges::any_of(
-      scene.views, [](const ObjectView& view) { return view.depth_values != nullptr; });
-  std::vector<std::vector<ModelPoint>> points =
-      visible_edges(model, camera_from_object, scene.backend, visibility.options,
-                    visibility.with_marks ? &marks : nullptr, has_depth ? &surfaces : nullptr);
+  std::vector<std::vector<ModelPoint>> points = visible_edges(
+      model, camera_from_object, scene.backend, visibility.options,
+      visibility.with_marks ? &marks : nullptr, scene.has_depth() ? &surfaces : nullptr);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     VisibleInView& cell = visible(cells[i].pose, cells[i].view);
     cell.points = std::move(points[i]);

@@ -46,7 +46,8 @@ struct OnePart {
     features.in_image = 1;
     features.mean_px = -std::log(probability / (1 - probability));
     estimate.features = {features};
-    ASSERT_NEAR(PoseClassifier::probability(estimate.features), probability, 1e-9);
+    classify(estimate);
+    ASSERT_NEAR(estimate.classification.probability, probability, 1e-9);
     competing.push_back(estimate);
   }
   const std::vector<AlternativePose>& alternatives() {

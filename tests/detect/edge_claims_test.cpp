@@ -13,6 +13,7 @@ PoseEstimate estimate_of(const Se3& world_from_object, const std::vector<PoseFea
   PoseEstimate estimate;
   estimate.world_from_object = world_from_object;
   estimate.features = features;
+  classify(estimate);
   return estimate;
 }
 

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "host/register/pose_classifier.h"
 #include "tests/detect/rendered_part.h"
 #include "tests/io/expect_input_error.h"
 
@@ -292,6 +293,7 @@ TEST(ExplainLoss, NamesTheSelectionAndWhoClaimsTheEdges) {
   for (PoseEstimate& pose : fine) pose.world_from_object = reported, pose.object = 0;
   fine[1].world_from_object.translation_m.x() += 0.0015;
   fine[1].features[0].psi = 1;
+  classify(fine[1]);
   selection.competing = {fine[1]};
   const LossReport duplicate = t.explain(reported, near);
   EXPECT_EQ(duplicate.lost_at, LossStage::Selection);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "host/register/pose_classifier.h"
 #include "tests/active/rendered_scene.h"
 #include "tests/io/expect_input_error.h"
 
@@ -70,6 +71,7 @@ TEST(SelectDetections, OfPosesInsideEachOtherTheBetterStays) {
     refined[i].features.assign(features.row(0).begin(), features.row(0).end());
   }
   refined[0].features[0].psi *= 0.98;
+  for (PoseEstimate& r : refined) classify(r);
   DetectOptions options;
   options.restart_rotation_rad = 0;
   options.edge_claims.max_claimed = 1;
@@ -84,7 +86,7 @@ TEST(SelectDetections, OfPosesInsideEachOtherTheBetterStays) {
   EXPECT_EQ(selected().size(), 2u) << "they may reach so far";
   options.penetration_m = DEFAULT_PENETRATION_M;
   views.pop_back();
-  for (PoseEstimate& r : refined) r.features.pop_back();
+  for (PoseEstimate& r : refined) r.features.pop_back(), classify(r);
   EXPECT_EQ(selected().size(), 2u) << "one view";
   options.penetration_m = -1;
   expect_input_error([&] { options.validate(); }, {"penetration"});

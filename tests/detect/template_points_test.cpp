@@ -1,5 +1,5 @@
 // Points that are looked up, against those that a depth map of the same pose shows.
-#include "host/detect/template_points.h"
+#include "host/register/template_points.h"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ struct PosesInViews {
   }
   Grid<std::vector<ModelPoint>> points(int most) const {
     const PointsInViews<ModelPoint> found =
-        template_points(set, views, poses, {.edges = most}, *backend).edges;
+        template_points(set, views, poses, {.edges = most}, *backend).visible.edges;
     Grid<std::vector<ModelPoint>> edges(found.ranges.rows(), found.ranges.columns());
     std::ranges::transform(found.ranges.values(), edges.values().begin(),
                            [&](const PointRange& range) {
@@ -107,6 +107,36 @@ TEST(TemplatePoints, AreThinnedEvenlyWithoutHiddenOnes) {
   EXPECT_GT(hidden, 50u);
 }
 
+TEST(TemplatePoints, AreCountedOutsideTheImage) {
+  Random random = test_random();
+  PosesInViews t("l_bracket", random);
+  for (ObjectPose& pose : t.poses) pose.world_from_object.translation_m += 0.1 * random.direction();
+  const auto found = [&](bool in_image) {
+    return template_points(t.set, t.views, t.poses, {.edges = 50, .in_image = in_image},
+                           *t.backend);
+  };
+  const TemplatePoints all = found(false), inside = found(true);
+  std::size_t total = 0;
+  for (std::size_t p = 0; p < t.poses.size(); ++p)
+    for (std::size_t v = 0; v < t.views.size(); ++v) {
+      const PointRange& range = all.visible.edges.ranges(p, v);
+      const Se3 camera_from_object = t.views[v].camera_from_world * t.poses[p].world_from_object;
+      std::size_t outside = 0;
+      for (const ModelPoint& point :
+           std::span(all.visible.edges.points).subspan(range.first, range.count)) {
+        const Camera& camera = t.views[v].camera;
+        const Eigen::Vector3d at = camera_from_object * place(point);
+        const Eigen::Vector2d px = project(camera, at);
+        outside += !(at.z() > 0 && px.minCoeff() >= 0 && px.x() <= camera.width - 1 &&
+                     px.y() <= camera.height - 1);
+      }
+      EXPECT_EQ(all.outside(p, v), outside);
+      EXPECT_EQ(inside.outside(p, v), 0u);
+      total += outside;
+    }
+  EXPECT_GT(total, 50u);
+}
+
 TEST(TemplatePoints, AreSharedWhereNothingHidesThem) {
   Random random = test_random();
   PosesInViews t("l_bracket", random);
@@ -114,7 +144,8 @@ TEST(TemplatePoints, AreSharedWhereNothingHidesThem) {
   for (int copies = 0; copies < 3; ++copies)
     t.poses.insert(t.poses.end(), apart.begin(), apart.end());
   const auto list_size = [&] {
-    return template_points(t.set, t.views, t.poses, {.edges = 50}, *t.backend).edges.points.size();
+    return template_points(t.set, t.views, t.poses, {.edges = 50}, *t.backend)
+        .visible.edges.points.size();
   };
   EXPECT_LE(list_size(), 50 * 2 * apart.size());
   const ObjectPose far_away{

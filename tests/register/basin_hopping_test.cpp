@@ -4,7 +4,8 @@
 #include <memory>
 
 #include "host/register/edge_icp.h"
-#include "host/register/probable_hops.h"
+#include "host/register/pose_classifier.h"
+#include "host/register/refine.h"
 #include "tests/register/scene.h"
 
 namespace edgescout {
@@ -83,13 +84,15 @@ TEST(BasinHopping, MovesProbablePosesAndOnePoseOnce) {
       view_of(part_model("l_bracket", 2e-4), known.camera_from_object, {}, *known.backend).tensor;
   std::vector<PoseEstimate> poses{known.tilted(0.15), known.tilted(0.1505), known.tilted(-0.15),
                                   known.tilted(0.15)};
-  const FeatureOptions measure;
-  measure_features(known.scene(), poses, measure);
+  RefineOptions options;
+  options.edge_icp = known.options;
+  measure_features(known.scene(), poses, {options.score, options.d2co.visibility});
   poses[0].features[0].mean_px = 3;
   poses[1].features[0].mean_px = 2;  // the same pose, more probable
   poses[2].features[0].mean_px = 3.5;
   poses[3].features[0].mean_px = 5;  // not probable
-  hop_probable(known.scene(), poses, known.options, measure);
+  for (PoseEstimate& pose : poses) classify(pose);
+  hop_probable(known.scene(), poses, options);
   for (const int i : {0, 1, 2}) {
     EXPECT_LT(known.angle_off_rad(poses[std::size_t(i)]), 0.01) << i;
     EXPECT_LT(poses[std::size_t(i)].features[0].mean_px, 1.5) << i << ": features of its new pose";

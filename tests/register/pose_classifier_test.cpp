@@ -211,5 +211,29 @@ TEST(PoseRank, OrdersAsTheProbability) {
   EXPECT_EQ(PoseClassifier::rank(std::vector{few, few}), -INFINITY);
 }
 
+TEST(Classify, StoresWhatTheFeaturesOfAllViewsSay) {
+  Random random = test_random();
+  PoseEstimate estimate;
+  for (int i = 0; i < 100; ++i) {
+    estimate.features = {random_features(random), random_features(random), with_psi(0.9)};
+    classify(estimate);
+    const std::vector<PoseFeatures>& views = estimate.features;
+    const PoseFeatures pooled = pool_over_views(views);
+    const PoseClassification& found = estimate.classification;
+    EXPECT_EQ(found.pooled.psi, pooled.psi);
+    EXPECT_EQ(found.rank, PoseClassifier::rank(views));
+    EXPECT_EQ(found.pooled_rank, PoseClassifier::rank(pooled));
+    EXPECT_EQ(found.pooled_log_odds, PoseClassifier::log_odds(pooled));
+    EXPECT_EQ(found.probability, PoseClassifier::probability(views));
+    EXPECT_EQ(found.psi_z_score, psi_z_score(pooled));
+    EXPECT_EQ(found.unexplained_grey, unexplained_grey(pooled.shading));
+    EXPECT_EQ(found.informative_views, std::ranges::count_if(views, is_informative));
+    EXPECT_EQ(found.has_psi_above_chance, has_psi_above_chance(views));
+  }
+  estimate.features.clear();
+  classify(estimate);
+  EXPECT_EQ(estimate.classification.probability, 0) << "nothing is left of the features before";
+}
+
 }  // namespace
 }  // namespace edgescout::test

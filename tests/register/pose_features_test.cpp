@@ -43,6 +43,19 @@ TEST(PoseFeatures, OfAllViewsAreTheMeansOverTheirPoints) {
   EXPECT_EQ(all[2].mean_px, options.score.cap_px);
 }
 
+TEST(PoseFeatures, AreClassifiedWhenTheyAreMeasured) {
+  Random random = test_random();
+  const auto backend = make_cpu_backend(2);
+  const PartScene scene("l_bracket", 2, random, *backend);
+  std::vector<PoseEstimate> poses(1);
+  poses[0].world_from_object = scene.truth;
+  measure_features(scene.on(*backend), poses);
+  ASSERT_EQ(poses[0].features.size(), 2u);
+  EXPECT_GT(poses[0].classification.pooled.points, 100);
+  EXPECT_EQ(poses[0].classification.rank, PoseClassifier::rank(poses[0].features));
+  EXPECT_EQ(poses[0].classification.probability, PoseClassifier::probability(poses[0].features));
+}
+
 // An image cut in two: each half has its own part of the points and of the length.
 TEST(PoseFeatures, CountWhatLiesInTheImage) {
   Random random = test_random();

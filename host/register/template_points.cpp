@@ -1,4 +1,4 @@
-#include "host/detect/template_points.h"
+#include "host/register/template_points.h"
 
 #include <algorithm>
 #include <limits>
@@ -51,6 +51,17 @@ class EdgeLookup {
     for (std::size_t pair = 0; pair < nearest_.size(); ++pair)
       found.ranges.values()[pair] = joined.ranges[shared.of_pair[pair]];
     return found;
+  }
+
+  Grid<std::size_t> outside(const PointsInViews<ModelPoint>& edges) const {
+    Grid<std::size_t> outside(poses_.size(), views_.size());
+    for_each_in_chunks(threads_, nearest_.size(), 64, [&](std::size_t pair) {
+      const PointRange& range = edges.ranges.values()[pair];
+      outside.values()[pair] =
+          count_outside(std::span(edges.points).subspan(range.first, range.count), set_.model,
+                        view_of(pair).camera, camera_from_object(pair));
+    });
+    return outside;
   }
 
  private:
@@ -125,11 +136,15 @@ PointsInViews<SurfacePoint> surface(const EdgeModel& model, std::span<const Obje
 
 }  // namespace
 
-VisiblePoints template_points(const TemplateSet& set, std::span<const ObjectView> views,
-                              std::span<const ObjectPose> poses, const WantedPoints& wanted,
-                              Backend& backend) {
-  return {EdgeLookup(set, views, poses, backend.threads()).points(wanted),
-          surface(set.model, views, poses.size(), wanted.surface)};
+TemplatePoints template_points(const TemplateSet& set, std::span<const ObjectView> views,
+                               std::span<const ObjectPose> poses, const WantedPoints& wanted,
+                               Backend& backend) {
+  const EdgeLookup lookup(set, views, poses, backend.threads());
+  TemplatePoints found{
+      {lookup.points(wanted), surface(set.model, views, poses.size(), wanted.surface)},
+      {poses.size(), views.size()}};
+  if (!wanted.in_image) found.outside = lookup.outside(found.visible.edges);
+  return found;
 }
 
 }  // namespace edgescout
