@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "host/detect/alternatives.h"
 #include "host/detect/detect.h"
 #include "host/detect/join_views.h"
 #include "host/detect/support_views.h"
@@ -108,9 +107,8 @@ Detections detect_objects(const ObjectView& prepared, std::span<const TemplateSe
     }
   const std::vector<EdgeModel> models = models_of(sets);
   SelectionTrace selection;
-  result.detections =
-      select_detections({models, {&view, 1}, backend, &limit}, candidates, in_camera, &selection);
-  set_alternatives(result.detections, selection.competing, sets);
+  result.detections = select_detections({models, {&view, 1}, backend, &limit}, sets, candidates,
+                                        in_camera, &selection);
   if (trace) trace->selection = std::move(selection);
   watch.lap("selection");
   result.completion = completion_under(limit);
@@ -134,10 +132,8 @@ Detections detect_jointly(std::span<const ObjectView> prepared, std::span<const 
           {sets[object], views[v], others, backend, &watch, &limit}, {}, options.detect);
   }
   const std::vector<EdgeModel> models = models_of(sets);
-  SelectionTrace selection;
   result.detections =
-      join_views({models, views, backend, &limit}, sets, candidates, options.detect, &selection);
-  set_alternatives(result.detections, selection.competing, sets);
+      join_views({models, views, backend, &limit}, sets, candidates, options.detect);
   watch.lap("joint refinement");
   result.completion = completion_under(limit);
   return result;

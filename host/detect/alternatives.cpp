@@ -44,4 +44,19 @@ void set_alternatives(std::span<Detection> detections, std::span<const PoseEstim
         alternatives_of(detection, competing, sets[std::size_t(detection.object)]);
 }
 
+void share_odds(Detection& detection) {
+  const auto odds_of = [](double probability) {
+    return probability / std::max(1 - probability, 1e-9);  // finite
+  };
+  double sum = odds_of(detection.probability);
+  for (const AlternativePose& pose : detection.alternatives) sum += odds_of(pose.probability);
+  if (detection.alternatives.empty() || sum == 0) return;
+  const auto share = [&](double& probability) {
+    const double odds = odds_of(probability) * odds_of(probability) / sum;
+    probability = odds / (1 + odds);
+  };
+  share(detection.probability);
+  for (AlternativePose& pose : detection.alternatives) share(pose.probability);
+}
+
 }  // namespace edgescout

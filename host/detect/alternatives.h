@@ -19,4 +19,9 @@ inline constexpr double ALTERNATIVE_PROBABILITY = 0.25;
 void set_alternatives(std::span<Detection> detections, std::span<const PoseEstimate> competing,
                       std::span<const TemplateSet> sets);
 
+// At most one of a detection and its alternatives is right. So they share their odds: those of each
+// are multiplied by its part of the sum of all their odds. Of two poses with odds of 1 each has
+// odds of 1/2 then. (docs/research/probability.md)
+void share_odds(Detection& detection);
+
 }  // namespace edgescout

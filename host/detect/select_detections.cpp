@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/detect/alternatives.h"
 #include "host/detect/search_space.h"
 
 namespace edgescout {
@@ -78,7 +79,7 @@ Detection to_detection(const PoseEstimate& estimate) {
   return d;
 }
 
-std::vector<Detection> select_detections(const Scene& scene,
+std::vector<Detection> select_detections(const Scene& scene, std::span<const TemplateSet> sets,
                                          std::span<const PoseEstimate> candidates,
                                          const DetectOptions& options, SelectionTrace* trace) {
   Competitors competing(scene, options);
@@ -91,6 +92,8 @@ std::vector<Detection> select_detections(const Scene& scene,
     competing.append(refine_poses(scene, object_poses(detections), refine));
     detections = select(scene, competing.poses(), options);
   }
+  set_alternatives(detections, competing.poses(), sets);
+  for (Detection& detection : detections) share_odds(detection);
   std::erase_if(detections,
                 [&](const Detection& d) { return d.probability < options.min_probability; });
   std::ranges::stable_sort(detections, [](const Detection& a, const Detection& b) {

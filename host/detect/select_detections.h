@@ -6,6 +6,7 @@
 
 #include "host/detect/detect_options.h"
 #include "host/detect/detect_trace.h"
+#include "host/model/template_set.h"
 
 namespace edgescout {
 
@@ -22,10 +23,12 @@ Detection to_detection(const PoseEstimate& estimate);
 // 4. Refines the winners again from turned starts: a wrong local optimum loses to a right one near
 // it.
 // 5. Repeats 2 and 3 with all poses.
-// 6. Reports those of options.min_probability or more.
+// 6. Lets each share its odds with its alternatives (alternatives.h).
+// 7. Reports those of options.min_probability or more.
 //
-// `trace`, where given, receives the poses that competed and those that were selected.
-std::vector<Detection> select_detections(const Scene& scene,
+// `sets` is by object. `trace`, where given, receives the poses that competed and those that were
+// selected.
+std::vector<Detection> select_detections(const Scene& scene, std::span<const TemplateSet> sets,
                                          std::span<const PoseEstimate> candidates,
                                          const DetectOptions& options,
                                          SelectionTrace* trace = nullptr);

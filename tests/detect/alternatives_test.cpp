@@ -86,6 +86,27 @@ TEST(Alternatives, AreNoneWhereNothingIsInDoubt) {
   EXPECT_TRUE(alone({0.1, 0, 0}, 0, 0.3)) << "nearly the same pose";
 }
 
+TEST(Alternatives, ShareTheOddsWithTheDetection) {
+  OnePart t;
+  share_odds(t.detections[0]);
+  EXPECT_EQ(t.detections[0].probability, 0.4) << "none";
+  for (const double other : {0.4, 0.1}) {
+    Detection& detection = t.detections[0];
+    detection.probability = 0.4;
+    detection.alternatives = {{detected, other}};
+    share_odds(detection);
+    const double odds = 0.4 / 0.6, others = other / (1 - other), sum = odds + others;
+    EXPECT_NEAR(detection.probability, odds * odds / (sum + odds * odds), 1e-12);
+    EXPECT_NEAR(detection.alternatives[0].probability, others * others / (sum + others * others),
+                1e-12);
+  }
+  t.detections[0].probability = 1;
+  t.detections[0].alternatives = {{detected, 1}, {detected, 0}};
+  share_odds(t.detections[0]);
+  EXPECT_GT(t.detections[0].probability, 0.999999);
+  EXPECT_EQ(t.detections[0].alternatives[1].probability, 0);
+}
+
 TEST(Alternatives, OfNearlyTheSamePoseOneIsListed) {
   OnePart t;
   for (const double off_rad : {0.0, 0.05, -0.05})

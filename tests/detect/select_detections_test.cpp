@@ -18,7 +18,8 @@ TEST(SelectDetections, ViewsThatLookElsewhereDoNotCountAgainstAPose) {
   const DetectOptions options;
   const auto selected = [&] {
     const Scene seen{scene.models, views, *backend};
-    return select_detections(seen, refine_poses(seen, {&truth, 1}, options.refine), options);
+    return select_detections(seen, scene.sets, refine_poses(seen, {&truth, 1}, options.refine),
+                             options);
   };
   const std::vector<Detection> alone = selected();
   ASSERT_EQ(alone.size(), 1u);
@@ -42,13 +43,13 @@ TEST(SelectDetections, PosesBelowTheThresholdCompeteAndAreNotReported) {
   const ObjectPose truth{0, scene.scene.placed[0].world_from_object};
   DetectOptions options;
   const std::vector<PoseEstimate> refined = refine_poses(seen, {&truth, 1}, options.refine);
-  const double probability = select_detections(seen, refined, options)[0].probability;
+  const double probability = select_detections(seen, scene.sets, refined, options)[0].probability;
   ASSERT_GT(probability, 0.5);
   for (const double margin : {-0.01, 0.01}) {
     options.min_probability = probability + margin;
     SelectionTrace trace;
     const std::size_t reported = margin < 0 ? 1 : 0;
-    EXPECT_EQ(select_detections(seen, refined, options, &trace).size(), reported);
+    EXPECT_EQ(select_detections(seen, scene.sets, refined, options, &trace).size(), reported);
     EXPECT_EQ(trace.selected.size(), reported);
     EXPECT_FALSE(trace.competing.empty());
   }
@@ -76,7 +77,7 @@ TEST(SelectDetections, OfPosesInsideEachOtherTheBetterStays) {
   options.restart_rotation_rad = 0;
   options.edge_claims.max_claimed = 1;
   const auto selected = [&] {
-    return select_detections({scene.models, views, *backend}, refined, options);
+    return select_detections({scene.models, views, *backend}, scene.sets, refined, options);
   };
   std::vector<Detection> detections = selected();
   ASSERT_EQ(detections.size(), 1u);
