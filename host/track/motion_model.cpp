@@ -1,8 +1,9 @@
 #include "host/track/motion_model.h"
-#include "host/core/matrix6.h"
 
 #include <algorithm>
 #include <limits>
+
+#include "host/core/matrix6.h"
 
 namespace edgescout {
 

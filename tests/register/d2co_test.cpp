@@ -1,12 +1,12 @@
 // Both solvers of D2CO: the poses that they recover, their covariance, and poses without visible
 // points.
 #include "host/register/d2co.h"
-#include "host/core/matrix6.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "host/core/matrix6.h"
 #include "kernels/error.h"
 #include "tests/register/scene.h"
 #include "tests/test_random.h"

@@ -1,12 +1,12 @@
 // Simulated errors of edges, compared with the covariance.
 #include "host/register/edge_covariance.h"
-#include "host/core/matrix6.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <vector>
 
+#include "host/core/matrix6.h"
 #include "host/core/pose_steps.h"
 #include "host/register/d2co.h"
 #include "tests/test_random.h"

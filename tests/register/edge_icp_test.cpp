@@ -1,6 +1,5 @@
 // Errors of poses after edge ICP in rendered images, compared with their covariance.
 #include "host/register/edge_icp.h"
-#include "host/core/matrix6.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "host/core/matrix6.h"
 #include "host/experiments/known_scene.h"
 #include "host/experiments/settings.h"
 #include "host/register/refine.h"
