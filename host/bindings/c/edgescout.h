@@ -630,17 +630,20 @@ typedef struct edgescout_frame {
   const edgescout_image* depth;
   const edgescout_camera* depth_camera;
   const double* camera_from_depth;
+  /* Of edgescout_tracker_update, or NULL. Over: objects that are doubtful stay so, not registered.
+     In edgescout_search it is NULL. */
+  const edgescout_limit* limit;
 } edgescout_frame;
 /* All instances in the new image; edgescout_tracker_at has them. About a millisecond for an object
    that is tracked; for a doubtful one on one core 60 to 120 ms at 640x480, 0.5 s at 1280x960, 1 s
-   at 1920x1440, unless the option no-register is set. Busy meanwhile: the tracker, but for
-   searches, and the backend of its plan. */
+   at 1920x1440, unless the limit of the frame ends it or the option no-register is set. Busy
+   meanwhile: the tracker, but for searches, and the backend of its plan. */
 EDGESCOUT_API edgescout_status edgescout_tracker_update(edgescout_tracker* tracker,
                                                         const edgescout_frame* frame);
 
 typedef struct edgescout_search {
   size_t struct_size;
-  edgescout_frame frame;        /* with its struct_size */
+  edgescout_frame frame;        /* with its struct_size, without a limit */
   edgescout_backend* backend;   /* busy meanwhile; another than the plan's, if update goes on */
   const edgescout_limit* limit; /* or NULL */
 } edgescout_search;

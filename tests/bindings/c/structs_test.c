@@ -226,7 +226,7 @@ static void expect_the_layout_of_this_abi(void) {
   CHECK(sizeof(edgescout_expectation) == 48 && sizeof(edgescout_shot) == 64);
   CHECK(sizeof(edgescout_scout_state) == 64 && sizeof(edgescout_scout_step) == 168);
   CHECK(sizeof(edgescout_hemisphere) == 56 && sizeof(edgescout_tracker_plan) == 40);
-  CHECK(sizeof(edgescout_frame) == 48 && sizeof(edgescout_search) == 72);
+  CHECK(sizeof(edgescout_frame) == 56 && sizeof(edgescout_search) == 80);
   CHECK(sizeof(edgescout_track) == 448);
 }
 

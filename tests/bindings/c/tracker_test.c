@@ -180,6 +180,108 @@ static void expect_it_knows_the_first_header(const struct scene* scene,
   CHECK(found == 1);
 }
 
+/* The header before frames had a limit, and one with longer frames. */
+static void expect_frames_of_other_sizes(const struct scene* scene, edgescout_tracker* tracker) {
+  struct {
+    size_t struct_size;
+    unsigned char frame[offsetof(edgescout_frame, limit)];
+    edgescout_backend* backend;
+    const edgescout_limit* limit;
+  } earlier = {.struct_size = sizeof earlier, .backend = scene->backend};
+  struct {
+    size_t struct_size;
+    edgescout_frame frame;
+    size_t more;
+    edgescout_backend* backend;
+    const edgescout_limit* limit;
+    size_t more_behind;
+  } newer = {.struct_size = sizeof newer, .backend = scene->backend};
+  CHECK(sizeof earlier == 72 && sizeof earlier.frame == 48);
+  edgescout_frame frame = {
+      .struct_size = sizeof earlier.frame, .image = &scene->image, .time_s = 3};
+  memcpy(earlier.frame, &frame, sizeof earlier.frame);
+  newer.frame = frame;
+  newer.frame.struct_size = sizeof newer.frame + sizeof newer.more;
+  const void* const searches[] = {&earlier, &newer};
+  for (int i = 0; i < 2; ++i) {
+    OK(es_tracker_remove(tracker, track_of(tracker).id));
+    size_t found = 0;
+    OK(es_tracker_search(tracker, searches[i], &found));
+    CHECK(found == 1);
+    frame.time_s += 1;
+    OK(es_tracker_update(tracker, &frame));
+    CHECK(track_of(tracker).state == EDGESCOUT_TRACKED);
+  }
+  size_t found = 0;
+  newer.more_behind = 1;
+  EXPECT(EDGESCOUT_WRONG_VERSION, es_tracker_search(tracker, searches[1], &found));
+  SAYS("search: found fields that version ");
+  newer.more_behind = 0;
+  newer.frame.struct_size = 60000;
+  EXPECT(EDGESCOUT_WRONG_VERSION, es_tracker_search(tracker, searches[1], &found));
+  SAYS("search.struct_size: found 96, expected at least 60024 with this frame");
+}
+
+static int32_t ask(void* user) {
+  ++*(int*)user;
+  return 1;
+}
+
+/* The part followed from a pose that only registration brings onto it. */
+static edgescout_track track_from_far(const struct scene* scene, const double pose[16],
+                                      const edgescout_options* options,
+                                      const edgescout_limit* limit) {
+  const edgescout_tracker_plan plan = {sizeof plan, scene->templates, scene->camera, scene->backend,
+                                       options};
+  edgescout_tracker* tracker = NULL;
+  OK(es_tracker_create(&plan, &tracker));
+  double turned[16];
+  memcpy(turned, pose, sizeof turned);
+  for (int row = 0; row < 3; ++row) { /* by 0.5 rad about the object's z */
+    turned[4 * row] = 0.8775826 * pose[4 * row] + 0.4794255 * pose[4 * row + 1];
+    turned[4 * row + 1] = -0.4794255 * pose[4 * row] + 0.8775826 * pose[4 * row + 1];
+  }
+  int32_t id = 0;
+  OK(es_tracker_add(tracker, 0, turned, &id));
+  const edgescout_frame frame = {
+      .struct_size = sizeof frame, .image = &scene->image, .time_s = 1, .limit = limit};
+  OK(es_tracker_update(tracker, &frame));
+  const edgescout_track track = track_of(tracker);
+  OK(es_free(tracker));
+  return track;
+}
+
+/* Where the limit is over, an update is as one that registers nothing. */
+static void expect_limits_of_updates(const struct scene* scene, const double pose[16],
+                                     edgescout_tracker* tracker) {
+  edgescout_options* options = NULL;
+  OK(es_options_create(EDGESCOUT_TRACK_OPTIONS, &options));
+  OK(es_options_set(options, "no-register", "true"));
+  const edgescout_track plain = track_from_far(scene, pose, options, NULL),
+                        whole = track_from_far(scene, pose, NULL, NULL);
+  OK(es_free(options));
+  CHECK(plain.state == EDGESCOUT_DOUBTFUL && whole.state == EDGESCOUT_TRACKED);
+  int asked = 0;
+  edgescout_limit limits[] = {{.struct_size = sizeof *limits, .max_seconds = 1e-9},
+                              {.struct_size = sizeof *limits, .cancelled = ask, .user = &asked}};
+  for (int i = 0; i < 2; ++i) {
+    const edgescout_track limited = track_from_far(scene, pose, NULL, &limits[i]);
+    CHECK(limited.state == plain.state && limited.above_chance == plain.above_chance);
+    CHECK(memcmp(limited.camera_from_object, plain.camera_from_object,
+                 sizeof plain.camera_from_object) == 0);
+  }
+  CHECK(asked > 0);
+  limits[0].max_seconds = -1;
+  const edgescout_frame frame = {
+      .struct_size = sizeof frame, .image = &scene->image, .time_s = 10, .limit = limits};
+  EXPECT(EDGESCOUT_BAD_INPUT, es_tracker_update(tracker, &frame));
+  SAYS("limit.max_seconds: found -1");
+  const edgescout_search search = {sizeof search, frame, scene->backend, NULL};
+  size_t found = 0;
+  EXPECT(EDGESCOUT_BAD_INPUT, es_tracker_search(tracker, &search, &found));
+  SAYS("search.frame.limit: found a limit");
+}
+
 void test_tracker(void) {
   struct scene scene;
   open_scene(&scene);
@@ -200,6 +302,9 @@ void test_tracker(void) {
   expect_depth_to_count(&scene, found.camera_from_object);
   expect_refusals_of_depth(&scene, tracker);
   expect_it_knows_the_first_header(&scene, tracker);
+  update(tracker, &scene.image, 2.2);
+  expect_frames_of_other_sizes(&scene, tracker);
+  expect_limits_of_updates(&scene, found.camera_from_object, tracker);
   OK(es_free(tracker));
   close_scene(&scene);
 }

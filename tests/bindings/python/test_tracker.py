@@ -92,6 +92,25 @@ def test_a_pose_that_depth_contradicts_is_doubtful(scene, found):
     assert wall.state == edgescout.TrackState.DOUBTFUL
 
 
+def test_a_limit_of_time_ends_the_registration_of_doubtful_objects(scene, found):
+    turn = np.eye(4)
+    turn[:2, :2] = [[np.cos(0.5), -np.sin(0.5)], [np.sin(0.5), np.cos(0.5)]]
+
+    def followed(options=None, **limit):
+        tracker = edgescout.Tracker(scene.templates, scene.camera, options, backend=scene.backend)
+        tracker.add(found[0].world_from_object @ turn)
+        track, = tracker.update(scene.image, 0, **limit)
+        return track
+
+    plain = followed(edgescout.TrackOptions(no_register=True))
+    limited = followed(max_seconds=0)
+    assert followed(max_seconds=60).state == TrackState.TRACKED
+    assert plain.state == limited.state == TrackState.DOUBTFUL
+    np.testing.assert_array_equal(limited.camera_from_object, plain.camera_from_object)
+    with pytest.raises(ValueError, match="max_seconds: found -1"):
+        followed(max_seconds=-1)
+
+
 def test_refuses_depth_of_another_size(scene, tracker):
     with pytest.raises(ValueError, match="320x240, expected the camera's 640x480"):
         tracker.update(scene.image, 0, depth=np.full((240, 320), 400, np.uint16))

@@ -22,13 +22,15 @@ inline constexpr std::initializer_list<std::size_t> earlier_sizes<edgescout_shot
     offsetof(edgescout_shot, depth)};
 template <>
 inline constexpr std::initializer_list<std::size_t> earlier_sizes<edgescout_frame>{
-    offsetof(edgescout_frame, depth)};
+    offsetof(edgescout_frame, depth), offsetof(edgescout_frame, limit)};
 // It has a frame inside: what lies behind that moved (tracker.cpp).
-inline constexpr std::size_t FIRST_SEARCH_SIZE =
-    sizeof(edgescout_search) - (sizeof(edgescout_frame) - offsetof(edgescout_frame, depth));
+inline constexpr std::size_t search_size_with(std::size_t frame_size) {
+  return sizeof(edgescout_search) - sizeof(edgescout_frame) + frame_size;
+}
 template <>
 inline constexpr std::initializer_list<std::size_t> earlier_sizes<edgescout_search>{
-    FIRST_SEARCH_SIZE};
+    search_size_with(offsetof(edgescout_frame, depth)),
+    search_size_with(offsetof(edgescout_frame, limit))};
 
 // A newer struct ends below: a larger number is none of a size.
 inline constexpr std::size_t LARGEST_STRUCT = 1 << 16;
@@ -48,6 +50,15 @@ std::size_t struct_size_of(const Struct* given, const char* name) {
   return size;
 }
 
+// Refuses what only a newer header has: bytes from `begin` on that are not 0.
+inline void require_zeros(const void* given, std::size_t begin, std::size_t end, const char* name) {
+  const auto* const bytes = static_cast<const unsigned char*>(given);
+  if (begin < end &&
+      std::any_of(bytes + begin, bytes + end, [](unsigned char byte) { return byte != 0; }))
+    refuse(EDGESCOUT_WRONG_VERSION, name, "fields that version " EDGESCOUT_VERSION " does not have",
+           "0 in them");
+}
+
 // What the caller gave, with the rest 0. Fields that only a newer header has, or that have no
 // meaning yet, must be 0.
 template <typename Struct>
@@ -55,11 +66,7 @@ Struct read_struct(const Struct* given, const char* name) {
   const std::size_t size = struct_size_of(given, name);
   Struct result{};
   std::memcpy(&result, given, std::min(size, sizeof result));
-  const auto* const bytes = reinterpret_cast<const unsigned char*>(given);
-  if (std::any_of(bytes + std::min(size, sizeof result), bytes + size,
-                  [](unsigned char byte) { return byte != 0; }))
-    refuse(EDGESCOUT_WRONG_VERSION, name, "fields that version " EDGESCOUT_VERSION " does not have",
-           "0 in them");
+  require_zeros(given, sizeof result, size, name);
   if constexpr (requires { result.reserved; })
     if (result.reserved != 0)
       refuse(EDGESCOUT_WRONG_VERSION, std::string(name) + ".reserved",

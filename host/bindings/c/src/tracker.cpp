@@ -32,24 +32,23 @@ struct TakenFrame {
   std::optional<TakenDepth> depth;
 };
 
-// The search of the first header: its frame ends before `depth`.
-struct FirstSearch {
-  std::size_t struct_size;
-  unsigned char frame[offsetof(edgescout_frame, depth)];
-  edgescout_backend* backend;
-  const edgescout_limit* limit;
-};
-static_assert(sizeof(FirstSearch) == FIRST_SEARCH_SIZE);
-
+// What follows the frame in a search lies where the caller's frame ends.
 edgescout_search read_search(const edgescout_search* given) {
-  edgescout_search search = read_struct(given, "search");
-  if (search.struct_size != FIRST_SEARCH_SIZE) return search;
-  FirstSearch first;
-  std::memcpy(&first, given, sizeof first);
-  search.frame = {};
-  std::memcpy(&search.frame, first.frame, sizeof first.frame);
-  search.backend = first.backend;
-  search.limit = first.limit;
+  const std::size_t size = struct_size_of(given, "search");
+  constexpr std::size_t frame_begin = offsetof(edgescout_search, frame),
+                        rest_begin = frame_begin + sizeof(edgescout_frame),
+                        rest_size = sizeof(edgescout_search) - rest_begin;
+  const std::size_t rest_given = frame_begin + struct_size_of(&given->frame, "search.frame");
+  if (rest_given + rest_size > size)
+    refuse(EDGESCOUT_WRONG_VERSION, "search.struct_size", std::to_string(size),
+           "at least " + std::to_string(rest_given + rest_size) + " with this frame");
+  require_zeros(given, rest_given + rest_size, size, "search");
+  edgescout_search search{};
+  search.frame = read_struct(&given->frame, "search.frame");
+  std::memcpy(reinterpret_cast<unsigned char*>(&search) + rest_begin,
+              reinterpret_cast<const unsigned char*>(given) + rest_given, rest_size);
+  if (search.frame.limit)
+    refuse(EDGESCOUT_BAD_INPUT, "search.frame.limit", "a limit", "NULL: that of the search counts");
   return search;
 }
 
@@ -81,15 +80,16 @@ class FollowingTracker {
   }
 
   void update(const edgescout_frame& frame) {
+    const TimeLimit limit = limit_of(frame.limit);
     const TakenFrame taken(frame);
     const Borrowed<edgescout_backend> on(backend_, Use::Exclusive);
-    tracker_.update(taken.in(camera_, on->backend->threads()));
+    tracker_.update(taken.in(camera_, on->backend->threads()), limit);
   }
 
   // Beside calls of other threads.
   int search(const edgescout_search& search) {
     const TimeLimit limit = limit_of(search.limit);
-    const TakenFrame taken(read_struct(&search.frame, "search.frame"));
+    const TakenFrame taken(search.frame);
     const auto on = exclusive(search.backend);
     const std::unique_lock lock(searching_, std::try_to_lock);
     if (!lock)

@@ -434,6 +434,7 @@ class Tracker:
         *,
         depth: Optional[Depth] = ...,
         depth_options: Optional[DepthOptions] = ...,
+        max_seconds: Optional[float] = ...,
     ) -> List[Track]: ...
     def search(
         self,

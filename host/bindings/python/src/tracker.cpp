@@ -60,10 +60,12 @@ class PythonTracker {
   }
 
   std::vector<PythonTrack> update(const py::object& image, double time_s, const py::object& depth,
-                                  const DepthOptions* depth_options) {
+                                  const DepthOptions* depth_options,
+                                  std::optional<double> max_seconds) {
     const TrackFrame frame = frame_of(image, time_s, {depth, depth_options});
-    return named(on_backend(backend_, {}, [&](const TimeLimit&, Backend&) {
-      return alone([&](Tracker& tracker) { return std::vector<Track>(tracker.update(frame)); });
+    return named(on_backend(backend_, max_seconds, [&](const TimeLimit& limit, Backend&) {
+      return alone(
+          [&](Tracker& tracker) { return std::vector<Track>(tracker.update(frame, limit)); });
     }));
   }
 
@@ -167,10 +169,13 @@ void add_tracker(py::module_& module) {
       .def("add", &PythonTracker::add, py::arg("camera_from_object"), py::arg("object") = 0,
            "Follows an object from a pose (4x4, metres) known to some 10 px; returns its id.")
       .def("remove", &PythonTracker::remove, py::arg("id"), "Forgets an instance.")
-      .def("update", &PythonTracker::update, py::arg("image"), py::arg("time_s"), py::kw_only(),
-           py::arg("depth") = py::none(), py::arg("depth_options") = nullptr,
-           "All instances in the next image. time_s: when it was taken, on any clock; it rises. "
-           "image, depth: as those of detect().")
+      .def(
+          "update", &PythonTracker::update, py::arg("image"), py::arg("time_s"), py::kw_only(),
+          py::arg("depth") = py::none(), py::arg("depth_options") = nullptr,
+          py::arg("max_seconds") = std::nullopt,
+          "All instances in the next image. time_s: when it was taken, on any clock; it rises. "
+          "image, depth: as those of detect(). max_seconds, Ctrl-C: then objects that are doubtful "
+          "stay so, not registered; the image was taken in.")
       .def(
           "search", &PythonTracker::search, py::arg("image"), py::kw_only(),
           py::arg("depth") = py::none(), py::arg("depth_options") = nullptr,
