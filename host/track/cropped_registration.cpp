@@ -6,13 +6,15 @@
 #include "host/core/lens.h"
 #include "host/register/measured_depth.h"
 #include "host/register_objects.h"
+#include "host/track/reduced_image.h"
 
 namespace edgescout {
 
 namespace {
 
-constexpr double crop_margin = 0.5;  // of the object's radius, at every side
-constexpr int least_px = 64;         // of a crop's side: tensors of less hold too few edges
+constexpr double crop_margin = 0.5;        // of the object's radius, at every side
+constexpr int least_px = 64;               // of a crop's side: tensors of less hold too few edges
+constexpr double most_pixels = 400 * 400;  // of a crop: they are what its registration costs
 
 struct Interval {
   int first, size;
@@ -34,6 +36,18 @@ Image cut_out(const Image& image, const Interval& columns, const Interval& rows)
     part.pixels.insert(part.pixels.end(), row, row + columns.size);
   }
   return part;
+}
+
+// The same crop, reduced where it has too many pixels.
+Crop with_few_pixels(Crop crop) {
+  const double pixels = double(crop.image.width) * crop.image.height;
+  crop.reduction = std::max(1, int(std::ceil(std::sqrt(pixels / most_pixels))));
+  if (crop.reduction == 1) return crop;
+  crop.image = reduced(crop.image, crop.reduction);
+  crop.camera.width = crop.reduction * crop.image.width;
+  crop.camera.height = crop.reduction * crop.image.height;
+  crop.camera = scaled(crop.camera, 1.0 / crop.reduction);
+  return crop;
 }
 
 // What the nearest pixels of another ideal camera at the same place measured.
@@ -71,12 +85,13 @@ std::optional<Crop> crop_around(const SearchedImage& image, const EdgeModel& mod
   crop.camera.height = rows.size;
   crop.camera.cx -= columns.first;
   crop.camera.cy -= rows.first;
-  return crop;
+  return with_few_pixels(std::move(crop));
 }
 
-std::optional<Detection> register_in_crop(const SearchedImage& image, const EdgeModel& model,
-                                          std::span<const Se3> starts, Backend& backend,
-                                          const TrackOptions& options, const TimeLimit& limit) {
+std::optional<CroppedDetection> register_in_crop(const SearchedImage& image, const EdgeModel& model,
+                                                 std::span<const Se3> starts, Backend& backend,
+                                                 const TrackOptions& options,
+                                                 const TimeLimit& limit) {
   if (limit.is_over()) return std::nullopt;
   const std::optional<Crop> crop = crop_around(image, model, starts.front());
   if (!crop) return std::nullopt;
@@ -87,7 +102,8 @@ std::optional<Detection> register_in_crop(const SearchedImage& image, const Edge
   const RegisterObjectsOptions registration{options.pipeline.tensor, options.refine, limit};
   const Detections found = register_objects({&view, 1}, {&model, 1}, poses, backend, registration);
   if (found.completion != Completion::Complete) return std::nullopt;
-  return *std::ranges::max_element(found.detections, {}, &Detection::probability);
+  return CroppedDetection{*std::ranges::max_element(found.detections, {}, &Detection::probability),
+                          crop->reduction};
 }
 
 }  // namespace edgescout

@@ -1,12 +1,11 @@
 #include "host/track/edge_follower.h"
 
-#include <opencv2/imgproc.hpp>
-
 #include "host/core/thinned.h"
 #include "host/model/visible_edges.h"
 #include "host/register/depth_evidence.h"
 #include "host/register/measured_depth.h"
 #include "host/register/occluders.h"
+#include "host/track/reduced_image.h"
 
 namespace edgescout {
 
@@ -14,18 +13,6 @@ namespace {
 
 constexpr double near_reach_px = 4;
 constexpr int most_surface_samples = 200;
-
-// Both share one size: odd rows and columns at the end are left out.
-Image half_of(const Image& image) {
-  Image half{image.width / 2, image.height / 2, {}};
-  half.pixels.resize(std::size_t(half.width) * half.height);
-  const cv::Mat all(image.height, image.width, CV_8U,
-                    const_cast<std::uint8_t*>(image.pixels.data()));
-  cv::Mat into(half.height, half.width, CV_8U, half.pixels.data());
-  cv::resize(all(cv::Rect(0, 0, 2 * half.width, 2 * half.height)), into, into.size(), 0, 0,
-             cv::INTER_AREA);
-  return half;
-}
 
 // Whether the object turned so far, seen from the camera, that other edges may be visible.
 bool has_turned(const Se3& from, const Se3& to) {
@@ -123,10 +110,10 @@ FollowedPose EdgeFollower::follow(const SearchedImage& image, std::span<const Se
   };
   for (const Se3& start : starts)
     if (is_tracked(start)) return best;
-  const Image half = half_of(*image.image);
-  const SearchedImage reduced{&half, image.camera, image.ideal, 2, image.depth};
+  const Image half = reduced(*image.image, 2);
+  const SearchedImage coarse{&half, image.camera, image.ideal, 2, image.depth};
   for (const Se3& start : starts)
-    if (is_tracked(follow_far(reduced, start, earlier))) return best;
+    if (is_tracked(follow_far(coarse, start, earlier))) return best;
   return best;
 }
 

@@ -230,10 +230,11 @@ std::optional<FollowedPose> Tracker::State::registered(const Instance& instance,
                                                        std::span<const Se3> starts,
                                                        const TimeLimit& limit) const {
   const EdgeModel& model = models[std::size_t(instance.track.object)];
-  const std::optional<Detection> found =
+  const std::optional<CroppedDetection> found =
       register_in_crop(image, model, starts, backend, options, limit);
   if (!found || found->probability < options.min_probability) return std::nullopt;
   const EdgeFollower follower(model, backend, options, nullptr);
+  if (found->reduction > 1) return follower.follow(image, {&found->world_from_object, 1}, nullptr);
   return FollowedPose{found->world_from_object,
                       follower.measure(image, found->world_from_object, nullptr)};
 }

@@ -52,6 +52,37 @@ TEST(CroppedRegistration, FindsThePoseFromOneTurnedAndShifted) {
   EXPECT_GT(found->probability, 0.4);
 }
 
+// The part fills most of an image of nine times as many pixels.
+TEST(CroppedRegistration, ReducesLargeCrops) {
+  ThreadPool pool(1);
+  const Camera camera = scaled(test::flat_camera(), 3);
+  const Se3 truth = pose_at(0.01, 0.3);
+  const Image image = test::flat_image(part.mesh, truth, pool, camera);
+  const SearchedImage given = searched(image, camera);
+  const std::optional<Crop> crop = crop_around(given, model, truth);
+  ASSERT_TRUE(crop);
+  EXPECT_GT(crop->reduction, 1);
+  EXPECT_EQ(crop->image.pixels.size(), std::size_t(crop->image.width) * crop->image.height);
+  EXPECT_LE(crop->image.pixels.size(), 400u * 400);
+  EXPECT_EQ(crop->camera.width, crop->image.width);
+  EXPECT_EQ(crop->camera.height, crop->image.height);
+  // The corner of the first pixel of the crop is that of a pixel of the image.
+  const Eigen::Vector3d corner = ray_through(crop->camera, {-0.5, -0.5});
+  const Eigen::Vector2d seen = project(camera, corner) + Eigen::Vector2d(0.5, 0.5);
+  EXPECT_LT((seen - Eigen::Vector2d(seen.array().round())).norm(), 1e-9);
+
+  Vector6d off;
+  off << 0.006, -0.005, 0.011, 0.15, -0.1, 0.1;
+  const Se3 start = retract(truth, off);
+  const auto backend = make_backend("cpu");
+  const std::optional<CroppedDetection> found =
+      register_in_crop(given, model, {&start, 1}, *backend, {});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->reduction, crop->reduction);
+  EXPECT_GT(found->probability, 0.4);
+  EXPECT_LT(mssd_m(found->world_from_object, truth, part), 0.02 * part.mesh.diameter_m);
+}
+
 TEST(CroppedRegistration, IsEmptyWhereItsLimitIsOverBeforeTheEnd) {
   ThreadPool pool(1);
   const Se3 truth = pose_at(0.02, 0.4);

@@ -71,6 +71,24 @@ TEST_F(TrackerTest, StartsFromARoughPose) {
   EXPECT_LT(error(tracker.update(frame(1))[0], pose_at(1)), 0.03);
 }
 
+// In an image whose part is registered in a reduced crop.
+TEST_F(TrackerTest, BringsARegisteredPoseOntoTheEdgesOfALargeImage) {
+  camera = scaled(camera, 3);
+  TrackOptions no_registration;
+  no_registration.register_doubtful = false;
+  Vector6d off;
+  off << 0.008, -0.006, 0.014, 0.16, -0.12, 0.14;
+  const auto updated = [&](const TrackOptions& options) {
+    Tracker tracker(sets, camera, *backend, options);
+    tracker.add(0, retract(pose_at(0), off));
+    return tracker.update(frame(0))[0];
+  };
+  EXPECT_EQ(updated(no_registration).state, TrackState::Doubtful);
+  const Track track = updated({});
+  EXPECT_EQ(track.state, TrackState::Tracked) << track.above_chance;
+  EXPECT_LT(error(track, pose_at(0)), 0.005);
+}
+
 TEST_F(TrackerTest, IsDoubtfulThenLostWhereThePartIsGone) {
   TrackOptions options;
   options.doubtful_frames = 3;

@@ -635,9 +635,9 @@ typedef struct edgescout_frame {
   const edgescout_limit* limit;
 } edgescout_frame;
 /* All instances in the new image; edgescout_tracker_at has them. About a millisecond for an object
-   that is tracked; for a doubtful one on one core 60 to 120 ms at 640x480, 0.5 s at 1280x960, 1 s
-   at 1920x1440, unless the limit of the frame ends it or the option no-register is set. Busy
-   meanwhile: the tracker, but for searches, and the backend of its plan. */
+   that is tracked; for a doubtful one up to half a second on one core, in images of any size. The
+   limit of the frame ends that, the option no-register leaves it out. Busy meanwhile: the tracker,
+   but for searches, and the backend of its plan. */
 EDGESCOUT_API edgescout_status edgescout_tracker_update(edgescout_tracker* tracker,
                                                         const edgescout_frame* frame);
 
