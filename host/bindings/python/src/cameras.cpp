@@ -74,15 +74,16 @@ py::array_t<double> intrinsic_matrix(const Camera& c) {
   return k;
 }
 
-}  // namespace
-
-void add_cameras(py::module_& module) {
+void add_lens_models(py::module_& module) {
   py::enum_<LensModel>(module, "LensModel", "How a lens moves the image of a direction.")
       .value("BROWN_CONRADY", LensModel::BrownConrady, "OpenCV: k1 k2 p1 p2 k3 k4 k5 k6 s1 .. s4")
       .value("MODIFIED_BROWN_CONRADY", LensModel::ModifiedBrownConrady, "RealSense")
       .value("FISHEYE", LensModel::Fisheye, "Kannala-Brandt: k1 .. k6 p1 p2 s1 .. s4")
       .value("THIN_PRISM_FISHEYE", LensModel::ThinPrismFisheye, "COLMAP: k1 k2 p1 p2 k3 k4 s1 s2")
       .value("FIELD_OF_VIEW", LensModel::FieldOfView, "the angle omega, rad");
+}
+
+void add_camera_class(py::module_& module) {
   py::class_<Camera>(module, "Camera",
                      "A pinhole camera with a lens. Its frame has z forward, x right, y down; "
                      "pixel centres are at integers. Lengths in px.")
@@ -107,6 +108,13 @@ void add_cameras(py::module_& module) {
         return py::str("Camera({}x{}, fx={:.2f}, fy={:.2f}, cx={:.2f}, cy={:.2f})")
             .format(c.width, c.height, c.fx, c.fy, c.cx, c.cy);
       });
+}
+
+}  // namespace
+
+void add_cameras(py::module_& module) {
+  add_lens_models(module);
+  add_camera_class(module);
   module.def("load_camera", &load_camera, py::arg("file"), py::arg("name") = "",
              "The camera of a calibration file of ROS, OpenCV, Kalibr, BOP and some fifteen others "
              "(docs/cameras.md). `name` chooses one of several. Its size may be (0, 0): then it "

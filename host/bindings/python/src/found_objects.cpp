@@ -111,14 +111,12 @@ FoundObjects named(Detections&& detections, std::span<const TemplateSet> sets) {
   return result;
 }
 
-void add_found_objects(py::module_& module) {
-  py::class_<AlternativePose>(module, "Alternative", "Another pose that explains the same edges.")
-      .def_property_readonly(
-          "world_from_object",
-          [](const AlternativePose& a) { return matrix_of(a.world_from_object); },
-          "(4, 4) float64, metres.")
-      .def_readonly("probability", &AlternativePose::probability, "That it is the right one.");
-  py::class_<FoundObject>(module, "Detection", "One object that was found.")
+namespace {
+
+using DetectionClass = py::class_<FoundObject>;
+
+void add_pose(DetectionClass& detection) {
+  detection
       .def_readonly("object", &FoundObject::object, "Index into the templates that were given.")
       .def_readonly("object_id", &FoundObject::object_id, "That of its templates.")
       .def_readonly("name", &FoundObject::name, "Of its mesh.")
@@ -127,7 +125,11 @@ void add_found_objects(py::module_& module) {
           "(4, 4) float64, metres. With one image the world is the camera frame.")
       .def_property_readonly(
           "covariance", [](const FoundObject& d) { return array_of(d.covariance); },
-          "(6, 6) float64 of [translation m, rotation rad] in the world.")
+          "(6, 6) float64 of [translation m, rotation rad] in the world.");
+}
+
+void add_scores(DetectionClass& detection) {
+  detection
       .def_readonly("probability", &FoundObject::probability, "That the pose is right, [0, 1].")
       .def_readonly(
           "psi", &FoundObject::psi,
@@ -148,6 +150,18 @@ void add_found_objects(py::module_& module) {
         return py::str("Detection({}, probability {:.3f}, at [{:.4f}, {:.4f}, {:.4f}] m)")
             .format(d.name, d.probability, t.x(), t.y(), t.z());
       });
+}
+
+void add_alternatives(py::module_& module) {
+  py::class_<AlternativePose>(module, "Alternative", "Another pose that explains the same edges.")
+      .def_property_readonly(
+          "world_from_object",
+          [](const AlternativePose& a) { return matrix_of(a.world_from_object); },
+          "(4, 4) float64, metres.")
+      .def_readonly("probability", &AlternativePose::probability, "That it is the right one.");
+}
+
+void add_detections(py::module_& module) {
   py::class_<FoundObjects>(module, "Detections", "A sequence of Detection, most probable first.")
       .def("__len__", [](const FoundObjects& f) { return f.found.size(); })
       .def("__getitem__",
@@ -167,6 +181,16 @@ void add_found_objects(py::module_& module) {
             return seconds;
           },
           "Of each stage, by name.");
+}
+
+}  // namespace
+
+void add_found_objects(py::module_& module) {
+  add_alternatives(module);
+  DetectionClass detection(module, "Detection", "One object that was found.");
+  add_pose(detection);
+  add_scores(detection);
+  add_detections(module);
 }
 
 }  // namespace edgescout::python

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "host/core/time_limit.h"
 
@@ -53,9 +54,14 @@ auto without_lock(std::optional<double> max_seconds, const Work& work) {
       throw;
     }
   };
-  auto result = work_unlocked();
-  if (raised) throw pybind11::error_already_set();
-  return result;
+  if constexpr (std::is_void_v<decltype(work(limit))>) {
+    work_unlocked();
+    if (raised) throw pybind11::error_already_set();
+  } else {
+    auto result = work_unlocked();
+    if (raised) throw pybind11::error_already_set();
+    return result;
+  }
 }
 
 // Calls work() without the lock. Ctrl-C is answered after it.

@@ -90,12 +90,10 @@ void add_meshes(py::module_& module) {
       "Reads and repairs a mesh. unit: mm, cm, m or in, what one unit of the file is.");
 }
 
-}  // namespace
+using TemplatesClass = py::class_<TemplateSet, std::shared_ptr<TemplateSet>>;
 
-void add_models(py::module_& module) {
-  add_meshes(module);
-  py::class_<TemplateSet, std::shared_ptr<TemplateSet>>(
-      module, "Templates", "What detection knows of one object: its mesh, symmetries, views.")
+void add_building(TemplatesClass& templates) {
+  templates
       .def(py::init([](const Mesh& mesh, const TemplateOptions* options,
                        const std::optional<Camera>& camera, const py::object& symmetries,
                        int object_id, const BackendPointer& backend, bool cached) {
@@ -119,7 +117,11 @@ void add_models(py::module_& module) {
           py::arg("mesh"), py::kw_only(), py::arg("symmetries") = py::none(),
           py::arg("object_id") = 1,
           "Of an object that is registered or tracked from given poses: there is nothing to build, "
-          "and it cannot be searched for.")
+          "and it cannot be searched for.");
+}
+
+void add_files(TemplatesClass& templates) {
+  templates
       .def_static(
           "load",
           [](const std::filesystem::path& file) {
@@ -132,8 +134,11 @@ void add_models(py::module_& module) {
           [](const TemplateSet& set, const std::filesystem::path& file) {
             without_lock([&] { save_templates(set, file); });
           },
-          py::arg("file"), "Writes a file that load() reads, whole or not at all.")
-      .def_readonly("object_id", &TemplateSet::object_id, "As given; BOP's obj_id.")
+          py::arg("file"), "Writes a file that load() reads, whole or not at all.");
+}
+
+void add_contents(TemplatesClass& templates) {
+  templates.def_readonly("object_id", &TemplateSet::object_id, "As given; BOP's obj_id.")
       .def_property_readonly(
           "mesh", [](const TemplateSet& set) { return set.model.mesh; }, "Of the object; a copy.")
       .def_property_readonly(
@@ -145,6 +150,17 @@ void add_models(py::module_& module) {
             .format(set.model.mesh.name, set.object_id, set.options.distance_min_m,
                     set.options.distance_max_m);
       });
+}
+
+}  // namespace
+
+void add_models(py::module_& module) {
+  add_meshes(module);
+  TemplatesClass templates(module, "Templates",
+                           "What detection knows of one object: its mesh, symmetries, views.");
+  add_building(templates);
+  add_files(templates);
+  add_contents(templates);
 }
 
 }  // namespace edgescout::python

@@ -1,9 +1,8 @@
 #include "host/active/scout.h"
 
-#include <mutex>
-
 #include "host/active/views.h"
 #include "host/bindings/python/src/array_pixels.h"
+#include "host/bindings/python/src/called_in_turn.h"
 #include "host/bindings/python/src/found_objects.h"
 #include "host/bindings/python/src/parts.h"
 #include "host/bindings/python/src/shared_backend.h"
@@ -32,26 +31,13 @@ struct ShownScout {
   ScoutEnd end = ScoutEnd::No;
 };
 
-ShownScout shown_of(const ScoutState& state) {
+ShownScout shown_of(const Scout& scout) {
+  const ScoutState& state = scout.state();
   return {state.detections, state.entropy_nats, state.steps.size(), state.end};
 }
 
-// Keeps what a Scout refers to. Calls of several threads follow one another.
+// Keeps what a Scout refers to.
 class PythonScout {
-  // Before what calls it: its type is deduced.
-  template <typename Work>
-  auto call(const Work& work) {
-    return on_backend(backend_, {}, [&](const TimeLimit& limit, Backend&) {
-      limit_ = &limit;
-      const auto reset = [this](const TimeLimit*) { limit_ = nullptr; };
-      const std::unique_ptr<const TimeLimit, decltype(reset)> until_the_end(&limit, reset);
-      auto result = work(*scout_);
-      const std::scoped_lock instant(shown_mutex_);
-      shown_ = shown_of(scout_->state());
-      return result;
-    });
-  }
-
  public:
   PythonScout(GivenSets sets, const Camera& camera, std::vector<Se3> views, ScoutOptions options,
               BackendPointer backend)
@@ -59,13 +45,13 @@ class PythonScout {
         sets_(given_.sets()),
         backend_(std::move(backend)),
         camera_(camera),
-        views_(std::move(views)) {
-    options.cancelled = [this] { return limit_ && limit_->is_cancelled(); };
-    scout_ = on_backend(backend_, {}, [&](const TimeLimit&, Backend& on) {
-      return std::make_unique<Scout>(sets_, camera_, views_, options, on);
-    });
-    shown_ = shown_of(scout_->state());
-  }
+        views_(std::move(views)),
+        scout_(on_backend(backend_, {},
+                          [&](const TimeLimit&, Backend& on) {
+                            options.cancelled = [this] { return limit_ && limit_->is_cancelled(); };
+                            return std::make_unique<Scout>(sets_, camera_, views_, options, on);
+                          }),
+               &shown_of) {}
 
   std::optional<Proposal> propose() {
     const std::optional<ScoutDecision> decision =
@@ -78,28 +64,22 @@ class PythonScout {
   }
 
   void give(int view, const py::object& image, const py::object& camera_from_world,
-            const py::object& depth, const DepthOptions* depth_options) {
+            const GivenDepth& depth) {
     require_view(view);
     const Se3 pose = camera_from_world.is_none() ? views_[std::size_t(view)]
                                                  : pose_of(camera_from_world, "camera_from_world");
     TakenImage taken{image_of(image), camera_, pose, {}, {}};
-    give_depth(taken, {depth, depth_options});
+    give_depth(taken, depth);
     const Shot shot{std::move(taken.image), pose, measured_depth(taken)};
-    call([&](Scout& scout) {
-      scout.give(view, shot);
-      return 0;
-    });
+    call([&](Scout& scout) { scout.give(view, shot); });
   }
 
   void unreachable(int view, const std::string& reason) {
     require_view(view);
-    call([&](Scout& scout) {
-      scout.unreachable(view, reason);
-      return 0;
-    });
+    call([&](Scout& scout) { scout.unreachable(view, reason); });
   }
 
-  std::vector<Instance> detections() {
+  std::vector<Instance> detections() const {
     std::vector<Instance> instances;
     for (const ModeDetection& mode : shown().detections) {
       const TemplateSet& set = sets_[std::size_t(mode.detection.object)];
@@ -110,26 +90,29 @@ class PythonScout {
   }
 
   void resume(const std::filesystem::path& file) {
-    call([&](Scout& scout) {
-      scout.resume(load_scout_state(file), file.string());
-      return 0;
-    });
+    call([&](Scout& scout) { scout.resume(load_scout_state(file), file.string()); });
   }
 
   void save(const std::filesystem::path& file) {
-    call([&](Scout& scout) {
-      save_scout_state(scout.state(), file);
-      return 0;
-    });
+    call([&](Scout& scout) { save_scout_state(scout.state(), file); });
   }
 
   // As of the last call.
-  ShownScout shown() {
-    const std::scoped_lock instant(shown_mutex_);
-    return shown_;
-  }
+  ShownScout shown() const { return scout_.shown(); }
 
  private:
+  template <typename Work>
+  std::invoke_result_t<Work, Scout&> call(const Work& work) {
+    return on_backend(backend_, {}, [&](const TimeLimit& limit, Backend&) {
+      return scout_.call([&](Scout& scout) {
+        limit_ = &limit;
+        const auto reset = [this](const TimeLimit*) { limit_ = nullptr; };
+        const std::unique_ptr<const TimeLimit, decltype(reset)> until_the_end(&limit, reset);
+        return work(scout);
+      });
+    });
+  }
+
   void require_view(int view) const {
     if (view < 0 || std::size_t(view) >= views_.size())
       throw py::index_error("view: found " + std::to_string(view) + ", expected one of " +
@@ -142,9 +125,7 @@ class PythonScout {
   const Camera camera_;
   const std::vector<Se3> views_;
   const TimeLimit* limit_ = nullptr;  // of the call in progress
-  std::unique_ptr<Scout> scout_;
-  std::mutex shown_mutex_;  // of what follows, for an instant
-  ShownScout shown_;
+  CalledInTurn<Scout, ShownScout> scout_;
 };
 
 py::array_t<double> hemisphere(const std::array<double, 3>& center_m, double radius_m, int count,
@@ -171,49 +152,46 @@ void add_scout_results(py::module_& module) {
                     "Images, from 0, that alone make the pose probable.");
 }
 
-}  // namespace
+using ScoutClass = py::class_<PythonScout>;
 
-void add_scout(py::module_& module) {
-  add_scout_results(module);
-  py::class_<PythonScout>(module, "Scout",
-                          "Finds objects from several views and says which view to take next.\n\n"
-                          "    while (proposal := scout.propose()) is not None:\n"
-                          "        move_camera(proposal.camera_from_world)\n"
-                          "        scout.give(proposal.view, take_image())\n")
-      .def(py::init([](const py::object& templates, const Camera& camera,
-                       const py::object& camera_from_world, const ScoutOptions* options,
-                       const BackendPointer& backend) {
-             return std::make_unique<PythonScout>(
-                 GivenSets(templates), camera, poses_of(camera_from_world, "camera_from_world"),
-                 options ? *options : ScoutOptions{}, backend_or_usual(backend));
-           }),
-           py::arg("templates"), py::arg("camera"), py::arg("camera_from_world"),
-           py::arg("options") = nullptr, py::kw_only(), py::arg("backend") = nullptr,
-           "camera_from_world: (n, 4, 4), metres, where the camera may be sent.")
+void add_steps(ScoutClass& scout) {
+  scout
       .def("propose", &PythonScout::propose,
            "The next view, or None at the end. The same until an image or a failure is given.")
-      .def("give", &PythonScout::give, py::arg("view"), py::arg("image"),
-           py::arg("camera_from_world") = py::none(), py::kw_only(), py::arg("depth") = py::none(),
-           py::arg("depth_options") = nullptr,
-           "Adds the image of a view, taken where it was planned or at the given (4, 4) pose. "
-           "image, depth: as those of detect(). Ctrl-C leaves the "
-           "scout as it was.")
+      .def(
+          "give",
+          [](PythonScout& self, int view, const py::object& image,
+             const py::object& camera_from_world, const py::object& depth,
+             const DepthOptions* depth_options) {
+            self.give(view, image, camera_from_world, {depth, depth_options});
+          },
+          py::arg("view"), py::arg("image"), py::arg("camera_from_world") = py::none(),
+          py::kw_only(), py::arg("depth") = py::none(), py::arg("depth_options") = nullptr,
+          "Adds the image of a view, taken where it was planned or at the given (4, 4) pose. "
+          "image, depth: as those of detect(). Ctrl-C leaves the scout as it was.")
       .def("unreachable", &PythonScout::unreachable, py::arg("view"), py::arg("reason"),
-           "The view failed; another one is proposed.")
+           "The view failed; another one is proposed.");
+}
+
+void add_state(ScoutClass& scout) {
+  scout
       .def_property_readonly("detections", &PythonScout::detections,
                              "Most probable first; as of the last call, as all that is read.")
       .def_property_readonly(
-          "entropy_nats", [](PythonScout& s) { return s.shown().entropy_nats; },
+          "entropy_nats", [](const PythonScout& s) { return s.shown().entropy_nats; },
           "What is uncertain about the objects, nats.")
       .def_property_readonly(
-          "images", [](PythonScout& s) { return s.shown().images; }, "How many were given.")
+          "images", [](const PythonScout& s) { return s.shown().images; }, "How many were given.")
       .def_property_readonly(
-          "end", [](PythonScout& s) { return to_string(s.shown().end); },
+          "end", [](const PythonScout& s) { return to_string(s.shown().end); },
           "Why it ended; empty while it goes on.")
       .def("save", &PythonScout::save, py::arg("file"),
            "Writes the state, whole or not at all. resume() goes on from it.")
       .def("resume", &PythonScout::resume, py::arg("file"),
            "Goes on from a saved state of the same objects, camera and views.");
+}
+
+void add_camera_poses(py::module_& module) {
   module.def("hemisphere_views", &hemisphere, py::arg("center_m"), py::arg("radius_m"),
              py::arg("count") = 32, py::arg("elevations_deg") = std::vector<double>{35, 55, 75},
              "Poses (n, 4, 4) camera_from_world of cameras on rings above a point, which look at "
@@ -226,6 +204,30 @@ void add_scout(py::module_& module) {
       },
       py::arg("eye_m"), py::arg("target_m"),
       "The pose camera_from_world, world z up in the image.");
+}
+
+}  // namespace
+
+void add_scout(py::module_& module) {
+  add_scout_results(module);
+  ScoutClass scout(module, "Scout",
+                   "Finds objects from several views and says which view to take next.\n\n"
+                   "    while (proposal := scout.propose()) is not None:\n"
+                   "        move_camera(proposal.camera_from_world)\n"
+                   "        scout.give(proposal.view, take_image())\n");
+  scout.def(py::init([](const py::object& templates, const Camera& camera,
+                        const py::object& camera_from_world, const ScoutOptions* options,
+                        const BackendPointer& backend) {
+              return std::make_unique<PythonScout>(
+                  GivenSets(templates), camera, poses_of(camera_from_world, "camera_from_world"),
+                  options ? *options : ScoutOptions{}, backend_or_usual(backend));
+            }),
+            py::arg("templates"), py::arg("camera"), py::arg("camera_from_world"),
+            py::arg("options") = nullptr, py::kw_only(), py::arg("backend") = nullptr,
+            "camera_from_world: (n, 4, 4), metres, where the camera may be sent.");
+  add_steps(scout);
+  add_state(scout);
+  add_camera_poses(module);
 }
 
 }  // namespace edgescout::python
