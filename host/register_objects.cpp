@@ -54,6 +54,12 @@ void RegisterObjectsOptions::validate() const {
   refine.validate();
 }
 
+void describe(RegistrationOptions& options, OptionVisitor& visit) {
+  describe(options.work.refine, visit);
+  describe(options.edges, visit);
+  describe(options.work.tensor, visit);
+}
+
 Detections register_objects(std::span<const ObjectView> prepared, std::span<const EdgeModel> models,
                             std::span<const ObjectPose> starts, Backend& backend,
                             const RegisterObjectsOptions& options) {

@@ -17,6 +17,14 @@ struct RegisterObjectsOptions {
   void validate() const;
 };
 
+// What a registration of images takes: options of their edges, too.
+struct RegistrationOptions {
+  EdgesOptions edges;
+  RegisterObjectsOptions work;
+};
+// Names every option of it to `visit`: the one list for bindings.
+void describe(RegistrationOptions& options, OptionVisitor& visit);
+
 // Detection::convergence of a start that no image shows.
 inline constexpr const char* OUT_OF_SIGHT = "out of sight";
 

@@ -80,6 +80,15 @@ static void print_one_view(const struct scene* scene) {
   request.options = NULL;
   OK(es_register(&request, &two, &found));
   print_detections("register", found);
+  edgescout_options* options = NULL;
+  OK(es_options_create(EDGESCOUT_REGISTER_OPTIONS, &options));
+  OK(es_options_set(options, "edge-sigma", "1.5"));
+  OK(es_options_set(options, "bins", "30"));
+  OK(es_options_set(options, "search-kept", "2"));
+  request.options = options;
+  OK(es_register(&request, &two, &found));
+  print_detections("register with options", found);
+  OK(es_free(options));
 }
 
 /* Rows of 16 bit that go upwards in memory; whole and real numbers of 32 bit, without padding. */
@@ -139,14 +148,23 @@ static void print_with_depth(const struct scene* scene) {
   OK(es_free(sensor));
 }
 
+static int32_t is_second(int32_t view, void* unused) {
+  (void)unused;
+  return view == 1;
+}
+
 static void print_two_views(const struct scene* scene, const edgescout_templates* parts) {
   edgescout_picture* pictures[SCOUT_VIEWS];
   edgescout_image images[SCOUT_VIEWS];
   edgescout_view views[SCOUT_VIEWS];
   edgescout_scout_plan plan = example_plan(scene);
   plan.templates = parts;
+  plan.reachable = is_second;
   edgescout_scout* scout = NULL;
   OK(es_scout_create(&plan, &scout));
+  edgescout_proposal proposal = {.struct_size = sizeof proposal};
+  OK(es_scout_propose(scout, NULL, &proposal));
+  printf("proposal: view %d\n", proposal.view);
   const edgescout_image depth = depth_of(EDGESCOUT_MONO32, scout_window.width, scout_window.height);
   for (int i = 0; i < SCOUT_VIEWS; ++i) {
     pictures[i] = picture_of_view(i, &images[i]);

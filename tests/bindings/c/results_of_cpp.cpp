@@ -139,6 +139,15 @@ void print_one_view(Backend& backend) {
   const RegisterObjectsOptions options;
   print_detections("register", register_objects({&view, 1}, models, starts, backend, options),
                    sets);
+  RegistrationOptions other;
+  other.edges.gradient.sigma_px = 1.5f;
+  other.work.tensor.bins = 30;
+  other.work.refine.search.num_kept = 2;
+  PipelineOptions preparing;
+  preparing.edges = other.edges;
+  const ObjectView blurred = prepare_view(image, camera_of(part_window), Se3{}, backend, preparing);
+  print_detections("register with options",
+                   register_objects({&blurred, 1}, models, starts, backend, other.work), sets);
 }
 
 DepthImage depth_of(int width, int height) {
@@ -176,7 +185,10 @@ void print_two_views(Backend& backend) {
   std::vector<Se3> poses;
   for (const auto& rows : camera_from_world_views) poses.push_back(pose_of_rows(rows, "view"));
   const Camera camera = camera_of(scout_window);
-  Scout scout(sets, camera, poses, quick_scout_options(), backend);
+  ScoutOptions options = quick_scout_options();
+  options.next_view.reachable = [](int view) { return view == 1; };
+  Scout scout(sets, camera, poses, options, backend);
+  std::printf("proposal: view %d\n", scout.propose()->view);
   const auto depth = std::make_shared<const MeasuredDepth>(
       MeasuredDepth{depth_of(scout_window.width, scout_window.height), {}});
   std::vector<ObjectView> views;

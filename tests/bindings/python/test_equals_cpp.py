@@ -88,11 +88,15 @@ def results_in_one_view(backend):
     starts = np.repeat(np.eye(4)[None], 2, axis=0)
     starts[:, :3, 3] = [-0.11, 0.01, 0.33], [5, 0.01, 0.33]
     registered = edgescout.register(image, camera, templates, starts, backend=backend)
+    with_options = edgescout.register(
+        image, camera, templates, starts, backend=backend,
+        options=edgescout.RegisterOptions(edge_sigma=1.5, bins=30, search_kept=2))
     with_depth = edgescout.detect(image, camera, templates, options, depth=depth_of(PART_WINDOW),
                                   depth_options=edgescout.DepthOptions(depth_noise=0.002),
                                   backend=backend)
     return {"track": tracks, "detect": lines_of_detections(found),
             "register": lines_of_detections(registered),
+            "register with options": lines_of_detections(with_options),
             "detect with depth": lines_of_detections(with_depth)}
 
 
@@ -111,7 +115,8 @@ def results_in_two_views(backend):
     scout = edgescout.Scout(
         templates, camera, poses,
         edgescout.ScoutOptions(particles=40, combinations=100, max_searches=1, **QUICK),
-        backend=backend)
+        reachable=[1], backend=backend)
+    proposal = scout.propose()
     for i in range(2):
         scout.give(i, images[i], depth=depth[i])
     options = edgescout.DetectOptions(min_probability=0.05, **QUICK)
@@ -124,7 +129,8 @@ def results_in_two_views(backend):
         lines += lines_of_detection(instance)
         lines += [f"  supported by image {image}" for image in instance.supporting_images]
     return {"detect_jointly": lines_of_detections(jointly),
-            "detect_jointly with depth": lines_of_detections(with_depth), "scout": lines}
+            "detect_jointly with depth": lines_of_detections(with_depth), "scout": lines,
+            "proposal": [f"view {proposal.view}"]}
 
 
 def results_of_cpp():

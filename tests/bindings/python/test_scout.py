@@ -37,9 +37,9 @@ def recorded(scene):
                            truths=[np.linalg.inv(poses[0]) @ truth for truth in truths])
 
 
-def new_scout(scene, recorded):
+def new_scout(scene, recorded, **more):
     return edgescout.Scout(recorded.templates, recorded.camera, recorded.poses,
-                           edgescout.ScoutOptions(max_views=2), backend=scene.backend)
+                           edgescout.ScoutOptions(max_views=2), backend=scene.backend, **more)
 
 
 def test_finds_the_part_and_goes_on_from_a_file(scene, recorded, tmp_path):
@@ -77,6 +77,45 @@ def test_proposes_another_view_where_one_cannot_be_had(scene, recorded):
         scout.give(len(poses), images[0])
     with pytest.raises(edgescout.InputError, match="image size"):
         scout.give(1, images[1][:100])
+
+
+def test_proposes_views_that_can_be_reached(scene, recorded):
+    beside = recorded.poses.copy()
+    beside[:, 0, 3] += 0.05
+    wider = SimpleNamespace(**vars(recorded) | {"poses": np.concatenate([recorded.poses, beside])})
+    allowed, asked = {1, 3}, set()
+
+    def reachable(view):
+        asked.add(view)
+        return view in allowed
+
+    by_function = new_scout(scene, wider, reachable=reachable)
+    by_indices = new_scout(scene, wider, reachable=[1, 3])
+    for scout in (by_function, by_indices):
+        assert scout.propose().view == 1
+        scout.give(1, recorded.images[1])
+        proposal = scout.propose()
+        assert proposal.view == 3
+        assert np.isnan(proposal.values_nats).tolist() == [True, True, True, False]
+    assert asked == {0, 1, 2, 3}
+    np.testing.assert_array_equal(by_function.propose().values_nats,
+                                  by_indices.propose().values_nats)
+    assert new_scout(scene, recorded, reachable=[]).propose() is None
+
+
+def test_refuses_what_says_of_no_view_whether_it_can_be_reached(scene, recorded):
+    for given, message in [("all", "found str"), (3, "found int"),
+                           ([99], "found view 99, expected one of")]:
+        with pytest.raises(ValueError, match="reachable: " + message):
+            new_scout(scene, recorded, reachable=given)
+
+    def fails(view):
+        raise ZeroDivisionError(view)
+
+    scout = new_scout(scene, recorded, reachable=fails)
+    with pytest.raises(ZeroDivisionError):
+        scout.propose()
+    assert scout.images == 0 and scout.end == ""
 
 
 def test_finds_nothing_behind_a_measured_wall(scene, recorded):

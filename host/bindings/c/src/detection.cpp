@@ -104,7 +104,7 @@ std::vector<ObjectPose> starts_of(const edgescout_starts& given, std::size_t par
 }
 
 FoundObjects register_in_all(const Request& request, const edgescout_starts& starts) {
-  auto options = options_of<RegisterOptions>(request.given.options);
+  auto options = options_of<RegistrationOptions>(request.given.options);
   options.work.limit = request.limit;
   PipelineOptions preparing;
   preparing.edges = options.edges;

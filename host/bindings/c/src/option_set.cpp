@@ -21,7 +21,7 @@ OptionValues defaults_of(std::int32_t kind) {
     case EDGESCOUT_DETECT_OPTIONS:
       return OptionValues(std::in_place_type<PipelineOptions>);
     case EDGESCOUT_REGISTER_OPTIONS:
-      return OptionValues(std::in_place_type<RegisterOptions>);
+      return OptionValues(std::in_place_type<RegistrationOptions>);
     case EDGESCOUT_SCOUT_OPTIONS:
       return OptionValues(std::in_place_type<ScoutOptions>);
     case EDGESCOUT_TRACK_OPTIONS:
@@ -34,11 +34,6 @@ OptionValues defaults_of(std::int32_t kind) {
   }
 }
 
-void describe_all(RegisterOptions& options, OptionVisitor& visit) {
-  describe(options.work.refine, visit);
-  describe(options.edges, visit);
-  describe(options.work.tensor, visit);
-}
 void describe_all(ScoutOptions& options, OptionVisitor& visit) { describe_scout(options, visit); }
 void describe_all(TrackOptions& options, OptionVisitor& visit) { describe_track(options, visit); }
 template <typename Options>
@@ -111,7 +106,7 @@ Options options_of(const edgescout_options* options) {
 template ImageOptions options_of(const edgescout_options*);
 template TemplateOptions options_of(const edgescout_options*);
 template PipelineOptions options_of(const edgescout_options*);
-template RegisterOptions options_of(const edgescout_options*);
+template RegistrationOptions options_of(const edgescout_options*);
 template ScoutOptions options_of(const edgescout_options*);
 template TrackOptions options_of(const edgescout_options*);
 template DepthOptions options_of(const edgescout_options*);

@@ -16,14 +16,9 @@
 
 namespace edgescout::c {
 
-struct RegisterOptions {
-  EdgesOptions edges;
-  RegisterObjectsOptions work;
-};
-
 // In the order of EDGESCOUT_IMAGE_OPTIONS and the others.
-using OptionValues = std::variant<ImageOptions, TemplateOptions, PipelineOptions, RegisterOptions,
-                                  ScoutOptions, TrackOptions, DepthOptions>;
+using OptionValues = std::variant<ImageOptions, TemplateOptions, PipelineOptions,
+                                  RegistrationOptions, ScoutOptions, TrackOptions, DepthOptions>;
 
 class OptionSet {
  public:

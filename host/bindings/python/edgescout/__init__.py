@@ -27,6 +27,7 @@ from ._core import (
     LogicError as LogicError,
     Mesh as Mesh,
     Proposal as Proposal,
+    RegisterOptions as RegisterOptions,
     Scout as Scout,
     ScoutOptions as ScoutOptions,
     TemplateOptions as TemplateOptions,

@@ -2,7 +2,7 @@
 
 import os
 import pathlib
-from typing import Any, ClassVar, Dict, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, ClassVar, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -112,6 +112,13 @@ class DetectOptions:
     def __getattr__(self, name: str) -> Any: ...
     def __setattr__(self, name: str, value: OptionValue) -> None: ...
     def copy(self) -> DetectOptions: ...
+    def help(self) -> Dict[str, str]: ...
+
+class RegisterOptions:
+    def __init__(self, **options: OptionValue) -> None: ...
+    def __getattr__(self, name: str) -> Any: ...
+    def __setattr__(self, name: str, value: OptionValue) -> None: ...
+    def copy(self) -> RegisterOptions: ...
     def help(self) -> Dict[str, str]: ...
 
 class ScoutOptions:
@@ -307,6 +314,7 @@ def register(
     camera_from_object: npt.ArrayLike,
     objects: Optional[Sequence[int]] = ...,
     *,
+    options: Optional[RegisterOptions] = ...,
     depth: Optional[Depth] = ...,
     depth_options: Optional[DepthOptions] = ...,
     backend: Optional[Backend] = ...,
@@ -320,6 +328,7 @@ def register_jointly(
     world_from_object: npt.ArrayLike,
     objects: Optional[Sequence[int]] = ...,
     *,
+    options: Optional[RegisterOptions] = ...,
     depth: Optional[Sequence[Optional[Depth]]] = ...,
     depth_options: Optional[DepthOptions] = ...,
     backend: Optional[Backend] = ...,
@@ -355,6 +364,7 @@ class Scout:
         camera_from_world: npt.ArrayLike,
         options: Optional[ScoutOptions] = ...,
         *,
+        reachable: Union[None, Callable[[int], bool], Sequence[int]] = ...,
         backend: Optional[Backend] = ...,
     ) -> None: ...
     def propose(self) -> Optional[Proposal]: ...

@@ -83,14 +83,18 @@ std::vector<ObjectPose> starts_of(const py::object& poses, const char* name,
   return starts;
 }
 
+// `given_options` null: the defaults.
 FoundObjects register_in(std::span<const TakenImage> taken, const GivenSets& given,
-                         const std::vector<ObjectPose>& starts, const Running& running) {
+                         const std::vector<ObjectPose>& starts,
+                         const RegistrationOptions* given_options, const Running& running) {
   const std::span<const TemplateSet> sets = given.sets();
   const std::vector<EdgeModel> models = models_of(sets);
+  RegistrationOptions options = given_options ? *given_options : RegistrationOptions{};
+  PipelineOptions preparing;
+  preparing.edges = options.edges;
   const auto work = [&](const TimeLimit& limit, Backend& on) {
-    RegisterObjectsOptions options;
-    options.limit = limit;
-    return register_objects(prepared(taken, on, {}), models, starts, on, options);
+    options.work.limit = limit;
+    return register_objects(prepared(taken, on, preparing), models, starts, on, options.work);
   };
   return named(on_backend(running.backend, running.max_seconds, work), sets);
 }
@@ -165,19 +169,20 @@ void add_register(py::module_& module) {
       "register",
       [](const py::object& image, const Camera& camera, const py::object& templates,
          const py::object& camera_from_object, const std::optional<std::vector<int>>& objects,
-         const py::object& depth, const DepthOptions* depth_options, const BackendPointer& backend,
+         const RegistrationOptions* options, const py::object& depth,
+         const DepthOptions* depth_options, const BackendPointer& backend,
          std::optional<double> max_seconds) {
         const GivenSets given(templates);
         const TakenImage taken = image_with_depth(image, camera, {depth, depth_options});
         return register_in(
             {&taken, 1}, given,
             starts_of(camera_from_object, "camera_from_object", objects, given.sets().size()),
-            {backend, max_seconds});
+            options, {backend, max_seconds});
       },
       py::arg("image"), py::arg("camera"), py::arg("templates"), py::arg("camera_from_object"),
-      py::arg("objects") = std::nullopt, py::kw_only(), py::arg("depth") = py::none(),
-      py::arg("depth_options") = nullptr, py::arg("backend") = nullptr,
-      py::arg("max_seconds") = std::nullopt,
+      py::arg("objects") = std::nullopt, py::kw_only(), py::arg("options") = nullptr,
+      py::arg("depth") = py::none(), py::arg("depth_options") = nullptr,
+      py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
       "Refines given poses in one image.\n\ncamera_from_object: (n, 4, 4), metres, within some "
       "0.3 rad and a tenth of the object's size. objects: of each, the index of its templates; "
       "needed where there are several. The result is in the order of the poses. image, depth, "
@@ -189,19 +194,20 @@ void add_register_jointly(py::module_& module) {
       "register_jointly",
       [](const py::object& images, const py::object& camera, const py::object& camera_from_world,
          const py::object& templates, const py::object& world_from_object,
-         const std::optional<std::vector<int>>& objects, const py::object& depth,
-         const DepthOptions* depth_options, const BackendPointer& backend,
+         const std::optional<std::vector<int>>& objects, const RegistrationOptions* options,
+         const py::object& depth, const DepthOptions* depth_options, const BackendPointer& backend,
          std::optional<double> max_seconds) {
         const GivenSets given(templates);
         return register_in(
             images_with_depth(images, camera, camera_from_world, {depth, depth_options}), given,
             starts_of(world_from_object, "world_from_object", objects, given.sets().size()),
-            {backend, max_seconds});
+            options, {backend, max_seconds});
       },
       py::arg("images"), py::arg("camera"), py::arg("camera_from_world"), py::arg("templates"),
       py::arg("world_from_object"), py::arg("objects") = std::nullopt, py::kw_only(),
-      py::arg("depth") = py::none(), py::arg("depth_options") = nullptr,
-      py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
+      py::arg("options") = nullptr, py::arg("depth") = py::none(),
+      py::arg("depth_options") = nullptr, py::arg("backend") = nullptr,
+      py::arg("max_seconds") = std::nullopt,
       "Refines given poses over several images of one static scene.\n\nArguments are those of "
       "detect_jointly() and register(); the poses are world_from_object.");
 }

@@ -4,7 +4,7 @@
 #include "host/io/depth_options.h"
 #include "host/io/image_options.h"
 #include "host/model/template_set.h"
-#include "host/pipeline.h"
+#include "host/register_objects.h"
 #include "host/track/track_options.h"
 
 namespace edgescout::python {
@@ -30,6 +30,11 @@ void add_options(py::module_& module) {
       "Options of detection. Names are those of the command line with underscores; help() explains "
       "them.",
       [](PipelineOptions& options, OptionVisitor& visit) { describe(options, visit); });
+  add_options_class<RegistrationOptions>(
+      module, "RegisterOptions",
+      "Options of registration. Names are those of the command line with underscores; help() "
+      "explains them.",
+      [](RegistrationOptions& options, OptionVisitor& visit) { describe(options, visit); });
   add_options_class<ScoutOptions>(
       module, "ScoutOptions",
       "Options of the scout. Names are those of the command line with underscores; help() explains "

@@ -1,5 +1,7 @@
 #include "host/active/scout.h"
 
+#include <functional>
+
 #include "host/active/views.h"
 #include "host/bindings/python/src/array_pixels.h"
 #include "host/bindings/python/src/called_in_turn.h"
@@ -34,6 +36,43 @@ struct ShownScout {
 ShownScout shown_of(const Scout& scout) {
   const ScoutState& state = scout.state();
   return {state.detections, state.entropy_nats, state.steps.size(), state.end};
+}
+
+// A function of Python, which may be called and freed without the interpreter's lock.
+class CalledFunction {
+ public:
+  explicit CalledFunction(const py::object& function)
+      : function_(new py::object(function), [](py::object* freed) {
+          const py::gil_scoped_acquire lock;
+          delete freed;
+        }) {}
+  bool operator()(int view) const {
+    const py::gil_scoped_acquire lock;
+    return py::cast<bool>(py::bool_((*function_)(view)));
+  }
+
+ private:
+  std::shared_ptr<py::object> function_;
+};
+
+// None: all views are. A function says so of each, or these indices are.
+std::function<bool(int view)> reachable_of(const py::object& given, std::size_t views) {
+  if (given.is_none()) return {};
+  if (PyCallable_Check(given.ptr())) return CalledFunction(given);
+  std::vector<int> indices;
+  try {
+    indices = py::cast<std::vector<int>>(given);
+  } catch (const py::cast_error&) {
+    refuse("reachable", type_name(given), "None, a function or a sequence of views");
+  }
+  std::vector<bool> is_reachable(views);
+  for (const int view : indices) {
+    if (view < 0 || std::size_t(view) >= views)
+      refuse("reachable", "view " + std::to_string(view),
+             "one of " + std::to_string(views) + " views");
+    is_reachable[std::size_t(view)] = true;
+  }
+  return [is_reachable](int view) { return bool(is_reachable[std::size_t(view)]); };
 }
 
 // Keeps what a Scout refers to.
@@ -217,14 +256,19 @@ void add_scout(py::module_& module) {
                    "        scout.give(proposal.view, take_image())\n");
   scout.def(py::init([](const py::object& templates, const Camera& camera,
                         const py::object& camera_from_world, const ScoutOptions* options,
-                        const BackendPointer& backend) {
-              return std::make_unique<PythonScout>(
-                  GivenSets(templates), camera, poses_of(camera_from_world, "camera_from_world"),
-                  options ? *options : ScoutOptions{}, backend_or_usual(backend));
+                        const py::object& reachable, const BackendPointer& backend) {
+              std::vector<Se3> views = poses_of(camera_from_world, "camera_from_world");
+              ScoutOptions used = options ? *options : ScoutOptions{};
+              used.next_view.reachable = reachable_of(reachable, views.size());
+              return std::make_unique<PythonScout>(GivenSets(templates), camera, std::move(views),
+                                                   std::move(used), backend_or_usual(backend));
             }),
             py::arg("templates"), py::arg("camera"), py::arg("camera_from_world"),
-            py::arg("options") = nullptr, py::kw_only(), py::arg("backend") = nullptr,
-            "camera_from_world: (n, 4, 4), metres, where the camera may be sent.");
+            py::arg("options") = nullptr, py::kw_only(), py::arg("reachable") = py::none(),
+            py::arg("backend") = nullptr,
+            "camera_from_world: (n, 4, 4), metres, where the camera may be sent. reachable: which "
+            "of these views can be reached now: a function that propose() asks with the index of a "
+            "view, or a sequence of the indices; None: all. The function does not call the scout.");
   add_steps(scout);
   add_state(scout);
   add_camera_poses(module);
