@@ -103,6 +103,7 @@ EDGESCOUT_API size_t edgescout_handle_count(void);
 
 /* Cancels calls from another thread. Not from a signal handler: let `cancelled` read a flag. */
 EDGESCOUT_API edgescout_status edgescout_canceller_create(edgescout_canceller** out);
+/* Calls with it end soon; it stays cancelled. */
 EDGESCOUT_API edgescout_status edgescout_cancel(edgescout_canceller* canceller);
 /* Makes it of use again for later calls. */
 EDGESCOUT_API edgescout_status edgescout_canceller_reset(edgescout_canceller* canceller);
@@ -156,16 +157,19 @@ typedef struct edgescout_option {
 /* Options of a kind with their defaults. Calls copy what they use: later changes concern later
    calls. Each of these functions, and a call that begins, keeps the options busy for a moment. */
 EDGESCOUT_API edgescout_status edgescout_options_create(int32_t kind, edgescout_options** out);
+/* Options of their own, with the same values. */
 EDGESCOUT_API edgescout_status edgescout_options_copy(const edgescout_options* options,
                                                       edgescout_options** out);
 /* Names have dashes or underscores. BAD_INPUT: no such name, a text of another type, out of
    bounds; the option keeps its value. */
 EDGESCOUT_API edgescout_status edgescout_options_set(edgescout_options* options, const char* name,
                                                      const char* value);
+/* BAD_INPUT: no such name. */
 EDGESCOUT_API edgescout_status edgescout_options_get(const edgescout_options* options,
                                                      const char* name, edgescout_option* out);
 EDGESCOUT_API edgescout_status edgescout_options_count(const edgescout_options* options,
                                                        size_t* out);
+/* BAD_INPUT: `index` is not below the count. */
 EDGESCOUT_API edgescout_status edgescout_options_at(const edgescout_options* options, size_t index,
                                                     edgescout_option* out);
 
@@ -215,12 +219,14 @@ typedef struct edgescout_camera_model {
   double field_of_view_rad; /* horizontal, to which images are undistorted; 0: fx .. cy stay */
 } edgescout_camera_model;
 
+/* BAD_INPUT: a size, focal length or coefficient that no camera has. */
 EDGESCOUT_API edgescout_status edgescout_camera_create(const edgescout_camera_model* model,
                                                        edgescout_camera** out);
 /* A calibration file of ROS, OpenCV, Kalibr, BOP and some fifteen others (docs/cameras.md).
    name: which of several; NULL or "": the only one. */
 EDGESCOUT_API edgescout_status edgescout_camera_load(const char* file, const char* name,
                                                      edgescout_camera** out);
+/* As it was made, with its lens. */
 EDGESCOUT_API edgescout_status edgescout_camera_get(const edgescout_camera* camera,
                                                     edgescout_camera_model* out);
 
@@ -307,8 +313,11 @@ typedef struct edgescout_mesh_arrays {
   const int32_t* triangles; /* three indices of each, counter-clockwise seen from outside */
   size_t triangle_count;
 } edgescout_mesh_arrays;
+/* Copies the arrays. BAD_INPUT: an index of no vertex, a number that is none, no area. Defects are
+   repaired. */
 EDGESCOUT_API edgescout_status edgescout_mesh_create(const edgescout_mesh_arrays* arrays,
                                                      edgescout_mesh** out);
+/* The name lasts as long as the mesh. */
 EDGESCOUT_API edgescout_status edgescout_mesh_get(const edgescout_mesh* mesh,
                                                   edgescout_mesh_info* out);
 /* Copies all of it: 3 numbers a vertex, 3 a triangle. Either may be NULL. */
@@ -361,6 +370,7 @@ EDGESCOUT_API edgescout_status edgescout_templates_save(const edgescout_template
                                                         const char* file);
 EDGESCOUT_API edgescout_status edgescout_templates_count(const edgescout_templates* templates,
                                                          size_t* out);
+/* BAD_INPUT: `index` is not below the count. The name lasts as long as the templates. */
 EDGESCOUT_API edgescout_status edgescout_templates_at(const edgescout_templates* templates,
                                                       size_t index, edgescout_templates_info* out);
 
@@ -467,8 +477,10 @@ typedef struct edgescout_summary {
   int32_t reserved;
 } edgescout_summary;
 
+/* How many there are, and whether the call was complete. */
 EDGESCOUT_API edgescout_status edgescout_detections_get(const edgescout_detections* detections,
                                                         edgescout_summary* out);
+/* BAD_INPUT: `index` is not below detection_count. */
 EDGESCOUT_API edgescout_status edgescout_detections_at(const edgescout_detections* detections,
                                                        size_t index, edgescout_detection* out);
 /* Most probable first. */
@@ -501,6 +513,8 @@ typedef struct edgescout_scout_plan {
   void* user;
 } edgescout_scout_plan;
 
+/* BAD_INPUT: options out of bounds, no view, two views at one pose, a camera without a size. Busy
+   meanwhile: the backend of the plan. */
 EDGESCOUT_API edgescout_status edgescout_scout_create(const edgescout_scout_plan* plan,
                                                       edgescout_scout** out);
 
@@ -525,6 +539,7 @@ typedef struct edgescout_expectation {
   double information, discovery, motion_cost;
   double value; /* information + discovery - motion_cost */
 } edgescout_expectation;
+/* BAD_INPUT: no such view. BUSY: another call changes the scout. */
 EDGESCOUT_API edgescout_status edgescout_scout_expectation(const edgescout_scout* scout,
                                                            int32_t view,
                                                            edgescout_expectation* out);
@@ -569,6 +584,7 @@ typedef struct edgescout_scout_state {
   double entropy_nats; /* of what is undecided */
   double seconds;      /* of computing */
 } edgescout_scout_state;
+/* BUSY: another call changes the scout. */
 EDGESCOUT_API edgescout_status edgescout_scout_get(const edgescout_scout* scout,
                                                    edgescout_scout_state* out);
 
@@ -581,6 +597,7 @@ typedef struct edgescout_scout_step {
   double entropy_nats;          /* after it */
   size_t new_candidates, detection_count;
 } edgescout_scout_step;
+/* BAD_INPUT: `step` is not below image_count. BUSY: another call changes the scout. */
 EDGESCOUT_API edgescout_status edgescout_scout_step_at(const edgescout_scout* scout, size_t step,
                                                        edgescout_scout_step* out);
 
@@ -610,6 +627,7 @@ typedef struct edgescout_tracker_plan {
   edgescout_backend* backend;       /* busy in update; "cpu" is the fastest for one object */
   const edgescout_options* options; /* EDGESCOUT_TRACK_OPTIONS; NULL: the defaults */
 } edgescout_tracker_plan;
+/* BAD_INPUT: options out of bounds, a camera without a size. The backend is not busy. */
 EDGESCOUT_API edgescout_status edgescout_tracker_create(const edgescout_tracker_plan* plan,
                                                         edgescout_tracker** out);
 
@@ -664,7 +682,8 @@ typedef struct edgescout_track {
   double covariance[36]; /* as that of edgescout_detection, in the camera frame */
   double above_chance;   /* share of the edges found, above what chance gives, [0, 1] */
 } edgescout_track;
-/* As of the last update, in the order of their ids. */
+/* As of the last update, in the order of their ids. BAD_INPUT: `index` is not below the count.
+   BUSY: another call changes the tracker. */
 EDGESCOUT_API edgescout_status edgescout_tracker_count(const edgescout_tracker* tracker,
                                                        size_t* out);
 EDGESCOUT_API edgescout_status edgescout_tracker_at(const edgescout_tracker* tracker, size_t index,
