@@ -80,7 +80,7 @@ class CameraFinder {
   }
 
   // Basalt: a list of cameras beside a list of their resolutions.
-  static std::vector<JsonField> of_element(std::vector<JsonField> outer, std::size_t index,
+  static std::vector<JsonField> of_element(const std::vector<JsonField>& outer, std::size_t index,
                                            std::size_t count) {
     std::vector<JsonField> fields;
     for (const JsonField& field : outer) {

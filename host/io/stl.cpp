@@ -88,9 +88,10 @@ class AsciiReader {
 
  private:
   std::string keyword(const char* what) {
-    const std::string word = lower_case(std::string(tokens_.word(what)));
-    if (word != "end" || tokens_.at_line_end()) return word;
-    return word + lower_case(std::string(tokens_.word(what)));
+    std::string word = lower_case(std::string(tokens_.word(what)));
+    if (word == "end" && !tokens_.at_line_end())
+      word += lower_case(std::string(tokens_.word(what)));
+    return word;
   }
   void expect(const char* word) {
     if (const std::string found = keyword(word); found != word) tokens_.fail(word, found);
