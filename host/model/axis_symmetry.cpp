@@ -33,17 +33,19 @@ struct Turns {
   bool is_finite;  // false: a surface of revolution
 };
 
+InputError unknown_turns(const std::string& word) {
+  return InputError("options", option_name("symmetry"), "\"" + word + "\"",
+                    "x, y or z for any turn, or followed by 2 to 360 for an order, as in z2");
+}
+
 Turns turns_of(const std::string& word, int continuous_steps) {
-  const InputError unknown(
-      "options", option_name("symmetry"), "\"" + word + "\"",
-      "x, y or z for any turn, or followed by 2 to 360 for an order, as in z2");
-  if (word.empty() || word[0] < 'x' || word[0] > 'z') throw unknown;
+  if (word.empty() || word[0] < 'x' || word[0] > 'z') throw unknown_turns(word);
   Turns turns{Eigen::Vector3d::Unit(word[0] - 'x'), continuous_steps, word.size() > 1};
   if (!turns.is_finite) return turns;
   const char* end = word.data() + word.size();
   const auto [rest, error] = std::from_chars(word.data() + 1, end, turns.order);
   if (error != std::errc{} || rest != end || turns.order < 2 || turns.order > MOST_TURNS)
-    throw unknown;
+    throw unknown_turns(word);
   return turns;
 }
 
