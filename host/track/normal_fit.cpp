@@ -102,11 +102,10 @@ class ShiftVotes {
   ShiftVotes(const NormalSearch& search, const LinePoint& point, int reach)
       : votes_(2 * std::size_t(reach) + 1), reach_(reach) {
     for (const LineEdge& edge : search.edges_of(point))
-      for (int s = -reach; s <= reach; ++s) {
-        const double near = geman_mcclure_weight(s - edge.offset_px, matched_px) *
+      for (std::size_t s = 0; s < votes_.size(); ++s) {
+        const double near = geman_mcclure_weight(double(s) - reach - edge.offset_px, matched_px) *
                             trust_in(agreement(edge.contrast, point.expected_contrast));
-        double& vote = votes_[std::size_t(s + reach)];
-        vote = std::max(vote, near);
+        votes_[s] = std::max(votes_[s], near);
       }
   }
   double at(double displaced_px) const {
