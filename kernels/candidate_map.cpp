@@ -89,8 +89,9 @@ bool nearest_pixel(float x_px, float y_px, int width, int height, int& x, int& y
         y_px < float(height) - 0.5f))
     return false;
   // The sum may round up to the next integer just below the border.
-  x = std::min(static_cast<int>(x_px + 0.5f), width - 1);
-  y = std::min(static_cast<int>(y_px + 0.5f), height - 1);
+  const float right_px = x_px + 0.5f, lower_px = y_px + 0.5f;
+  x = std::min(static_cast<int>(right_px), width - 1);
+  y = std::min(static_cast<int>(lower_px), height - 1);
   return true;
 }
 

@@ -77,6 +77,7 @@ PixelLists<T> gather(const ChamferView& view, ThreadPool& pool, const EntryOf& e
 struct Surface {
   float hides_from_m;  // its depth and its candidate's tolerance
   std::uint32_t candidate;
+  // The compiler's own comparison with 0 is no null pointer: NOLINTNEXTLINE(modernize-use-nullptr)
   auto operator<=>(const Surface&) const = default;
 };
 

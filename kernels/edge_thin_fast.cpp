@@ -42,8 +42,9 @@ inline std::uint32_t choose(std::uint32_t mask, std::uint32_t yes, std::uint32_t
     const std::int32_t larger = std::max(std::max(ax, ay), 1), smaller = std::min(ax, ay);
     // The quotient of two such integers is never so close below a whole number that its rounding in
     // float reaches it.
-    const auto f = static_cast<std::uint32_t>(static_cast<std::int32_t>(
-        static_cast<float>(256 * smaller + larger / 2) / static_cast<float>(larger)));
+    const std::int32_t dividend = 256 * smaller + larger / 2;
+    const auto f = static_cast<std::uint32_t>(
+        static_cast<std::int32_t>(static_cast<float>(dividend) / static_cast<float>(larger)));
     const auto right = ~static_cast<std::uint32_t>(dx >> 31),
                down = ~static_cast<std::uint32_t>(dy >> 31);
     const auto level = ~static_cast<std::uint32_t>((ax - ay) >> 31);

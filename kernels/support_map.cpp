@@ -15,6 +15,10 @@ namespace {
 constexpr int WINDOW = static_cast<int>(SUPPORT_WINDOW), WINDOW_SIZE = 2 * WINDOW + 1;
 constexpr int BAND_ROWS = 48;
 
+std::size_t place_in_window(int dx, int dy) {
+  return std::size_t(dy + WINDOW) * WINDOW_SIZE + std::size_t(dx + WINDOW);
+}
+
 std::uint32_t reach_of(int dx, int dy) {
   std::uint32_t bits = 0;
   for (std::uint32_t b = 0; b < SUPPORT_BINS; ++b) {
@@ -38,7 +42,7 @@ SupportTables make_tables() {
   }
   for (int dy = -WINDOW; dy <= WINDOW; ++dy)
     for (int dx = -WINDOW; dx <= WINDOW; ++dx)
-      tables.reach[std::size_t((dy + WINDOW) * WINDOW_SIZE + dx + WINDOW)] = reach_of(dx, dy);
+      tables.reach[place_in_window(dx, dy)] = reach_of(dx, dy);
   return tables;
 }
 
@@ -56,8 +60,7 @@ void spread_band(std::span<const EdgePixel> candidates, const EdgePlanes& planes
       for (int x = std::max(0, candidate.x - WINDOW);
            x < std::min(planes.width, candidate.x + WINDOW + 1); ++x)
         map[std::size_t(y) * planes.width + x] |=
-            directions &
-            reach[std::size_t((candidate.y - y + WINDOW) * WINDOW_SIZE + candidate.x - x + WINDOW)];
+            directions & reach[place_in_window(candidate.x - x, candidate.y - y)];
   }
 }
 
@@ -99,7 +102,7 @@ std::vector<std::uint32_t> support_map_reference(const ImageView& image) {
           if (!candidates[q]) continue;
           map[std::size_t(y) * image.width + x] |=
               support_directions(gradient[2 * q], gradient[2 * q + 1]) &
-              support_tables().reach[std::size_t((dy + WINDOW) * WINDOW_SIZE + dx + WINDOW)];
+              support_tables().reach[place_in_window(dx, dy)];
         }
   return map;
 }

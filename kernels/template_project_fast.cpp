@@ -42,9 +42,10 @@ int project_points(const TemplateProjectJob& job, const TemplateProjectOptions& 
     const float inverse = 1.0f / pz;
     dx[i] = rounded_offset(k.fx * px * inverse + k.cx - x_px);
     dy[i] = rounded_offset(k.fy * py * inverse + k.cy - y_px);
-    const int turn = static_cast<int>(
+    const float half_up =
         undirected_angle(k.fx * (pz * qx - px * qz), k.fy * (pz * qy - py * qz)) * bins_per_rad +
-        0.5f);
+        0.5f;
+    const int turn = static_cast<int>(half_up);
     bin[i] = turn >= bins ? 0 : turn;
   }
   for (int i = 0; i < count; ++i)
