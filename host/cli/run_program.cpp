@@ -78,7 +78,7 @@ std::string verbs_of(const CLI::App& app) {
 std::string help_of(const CLI::App& verb) {
   std::string names = verb.get_name();
   for (const CLI::App* outer = verb.get_parent(); outer; outer = outer->get_parent())
-    names = outer->get_name() + " " + names;
+    names.insert(0, outer->get_name() + " ");
   return names + " --help-all";
 }
 
@@ -90,7 +90,7 @@ std::string explanation(const CLI::ParseError& error, const CLI::App& app) {
       return "command line: " + name + ": found none: " + lists +
              " took what stands behind, expected " + name + " before it";
   constexpr std::string_view required = " is required";
-  const std::string text = error.what();
+  std::string text = error.what();
   const bool is_required = text.ends_with(required);
   if (!is_required && !dynamic_cast<const CLI::ExtrasError*>(&error)) return text;
   const CLI::App* verb = &app;
