@@ -21,7 +21,7 @@ float median_of_block(const DepthImage& depth, int x, int y) {
   for (int v = y; v < y + BLOCK_PX; ++v)
     for (int u = x; u < x + BLOCK_PX; ++u)
       if (const float z_m = depth.at(u, v); z_m > 0) values.push_back(z_m);
-  if (2 * values.size() < std::size_t(BLOCK_PX * BLOCK_PX)) return DEPTH_MISSING;
+  if (2 * values.size() < std::size_t(BLOCK_PX) * BLOCK_PX) return DEPTH_MISSING;
   return upper_median(values);
 }
 
