@@ -140,7 +140,7 @@ Inbox::Images::iterator Inbox::ready_image() {
 }
 
 // The image goes, and so do the older ones.
-void Inbox::take_image(Images::iterator image, Work& work) {
+void Inbox::take_image(const Images::iterator& image, Work& work) {
   work.dropped = std::size_t(image - waiting_.begin());
   work.image = std::move(*image);
   waiting_.erase(waiting_.begin(), image + 1);

@@ -94,7 +94,7 @@ class Inbox {
   Images::iterator ready_image();  // end(): none
   bool has_expired() const;
   Clock::time_point next_deadline(Clock::time_point latest) const;
-  void take_image(Images::iterator image, Work& work);
+  void take_image(const Images::iterator& image, Work& work);
 
   bool always_;
   std::optional<DepthWait> depth_wait_;

@@ -63,6 +63,10 @@ bool matches(std::string_view section, std::string_view node) {
   return (part == "/*" || part == of_node) && matches(rest, node.substr(of_node.size()));
 }
 
+std::string name_below(const std::string& space, const std::string& key) {
+  return space.empty() || key.starts_with('/') ? space + key : space + "/" + key;
+}
+
 // The sections of a file. Those of other nodes are noted by name.
 class Sections {
  public:
@@ -73,8 +77,7 @@ class Sections {
   void read(const YAML::Node& map, const std::string& space) {
     for (const auto& section : map) {
       const std::string key = section.first.as<std::string>();
-      const std::string name =
-          space.empty() || key.starts_with('/') ? space + key : space + "/" + key;
+      const std::string name = name_below(space, key);
       const bool is_of_node = matches(name.starts_with('/') ? name : "/" + name, node_);
       const YAML::Node values = section.second.IsMap() ? section.second["ros__parameters"]
                                                        : YAML::Node(YAML::NodeType::Undefined);
