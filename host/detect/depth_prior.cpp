@@ -94,8 +94,8 @@ DepthPrior::DepthPrior(const SearchedScale& scale, const ObjectView& view, int a
     const double half_step_m = 0.5 * distance_m * (scale.set.options.distance_ratio - 1);
     const auto is_near = [&](std::size_t i) {
       const double z_m = anchors.z_m[i];
-      const Eigen::Vector2d anchor(double(i % std::size_t(columns_)) * anchor_step,
-                                   double(i / std::size_t(columns_)) * anchor_step);
+      const std::size_t column = i % std::size_t(columns_), row = i / std::size_t(columns_);
+      const Eigen::Vector2d anchor(double(column) * anchor_step, double(row) * anchor_step);
       const double center_z_m = distance_m / ray_through(camera, anchor).norm();
       return z_m > 0 && std::abs(z_m - center_z_m) <=
                             radius_m + half_step_m + SIGMAS * view.depth->noise.sigma_m(z_m);
