@@ -42,7 +42,7 @@ void EdgeCovariance::add(std::uint64_t edge, double distance_px, double weight,
 }
 
 Matrix6d EdgeCovariance::covariance() const {
-  const Matrix6d inverse = pose_covariance(hessian_, 1);
+  Matrix6d inverse = pose_covariance(hessian_, 1);
   if (!inverse.allFinite()) return inverse;
   Matrix6d by_edge = Matrix6d::Zero(), by_weighted_edge = Matrix6d::Zero();
   double weight = 0, squared_weight = 0, explained_px2 = 0, between_px2 = 0, free_within = 0;
