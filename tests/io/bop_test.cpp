@@ -245,8 +245,9 @@ TEST(BopResults, ReadsColumnsByTheirNames) {
            "," + header + "0,1,2,3,0.5," + pose + ",10 20 30,0.1\n",
            "# by x\nScene_ID;Im_ID;Obj_ID;Score;R;T;Time\n1;2;3;0.5;" + pose + ";10 20 30;\n",
            "1\t2\t3\t0.5\t" + pose + "\t10 20 30\t0.1\n",
-           "\"scene_id\",\"im_id\",\"obj_id\",\"score\",\"R\",\"t\",\"time\"\n"
-           "\"1\",\"2\",\"3\",\"0.5\",\"[0, -1, 0, 1, 0, 0, 0, 0, 1]\",\"[10, 20, 30]\",\"1\"\n",
+           R"("scene_id","im_id","obj_id","score","R","t","time"
+"1","2","3","0.5","[0, -1, 0, 1, 0, 0, 0, 0, 1]","[10, 20, 30]","1"
+)",
            header + "1,2,3,0.5,[" + pose + "],[10. 20. 30.],0.1,\n",
            "scene_id,im_id,obj_id,score,R,t,time\r1,2,3,0.5," + pose + ",10 20 30,0.1\r"}) {
     const std::vector<BopResult> results = load_bop_results(folder.write("r.csv", text));

@@ -90,7 +90,8 @@ TEST(DepthFile, ValuesInMemoryAreReadAlike) {
 TEST(DepthFile, PixelsInMemoryAreReadAlike) {
   std::vector<std::uint32_t> whole(16 * 23, 0xffffffff);
   for (int y = 0; y < 16; ++y)
-    for (int x = 0; x < 20; ++x) whole[std::size_t(23 * y + x)] = std::uint32_t(650 + x);
+    for (int x = 0; x < 20; ++x)
+      whole[std::size_t(y) * 23 + std::size_t(x)] = std::uint32_t(650 + x);
   Pixels pixels{whole.data(), 20, 16, 23 * sizeof whole[0], PixelFormat::MonoUint32};
   const DepthImage depth = depth_image(pixels);
   EXPECT_FLOAT_EQ(depth.at(19, 15), 0.669f);

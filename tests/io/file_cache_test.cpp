@@ -247,7 +247,8 @@ TEST(FileCache, IsSharedByProcessesAtTheSameTime) {
 
 TEST(FileCache, AKilledProcessLeavesNothingThatCounts) {
   const TemporaryFolder folder;
-  const std::string large(20'000'000, 'x');
+  std::string large;
+  large.resize(20'000'000, 'x');
   FileCache cache(folder.path(), test_format, roomy);
   for (int i = 0; i < 10; ++i) {
     const pid_t child = in_another_process([&] {

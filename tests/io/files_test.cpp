@@ -113,7 +113,7 @@ TEST(RequireWritableFolder, RemovesTemporaryFilesOfKilledRunsAndNoOthers) {
   const TemporaryFolder folder;
   const auto old = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
   const auto make = [&](const char* name) {
-    const std::filesystem::path file = folder.path() / name;
+    std::filesystem::path file = folder.path() / name;
     std::ofstream(file) << "half";
     std::filesystem::last_write_time(file, old);
     return file;

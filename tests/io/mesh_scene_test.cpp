@@ -100,7 +100,7 @@ std::filesystem::path write_3mf(const TemporaryFolder& folder, const std::string
                             "content-types\"><Default Extension=\"model\" "
                             "ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\""
                             "/></Types>";
-  const std::filesystem::path file = folder.path() / "box.3mf";
+  std::filesystem::path file = folder.path() / "box.3mf";
   const zipFile zip = zipOpen(file.c_str(), APPEND_STATUS_CREATE);
   for (const auto& [name, content] :
        {std::pair<const char*, std::string>{"[Content_Types].xml", types},
