@@ -60,7 +60,8 @@ say "preparing clang-tidy"
 cmake --preset dev > /dev/null
 # Headers that the build makes.
 made=(edgescout_shader_headers edgescout_arguments_commit edgescout_bench_commit)
-if ninja -C build/dev -t targets all | grep -q '^edgescout_ros2_types:'; then
+# To the end of the list: -q would stop ninja early, which counts as a failure here.
+if ninja -C build/dev -t targets all | grep '^edgescout_ros2_types:' > /dev/null; then
   made+=(edgescout_ros2_types)
 fi
 cmake --build --preset dev -j "$jobs" --target "${made[@]}" > /dev/null
