@@ -80,7 +80,7 @@ struct Side {
 };
 
 Side side_of(const Loop2d& outline, int index) {
-  const Eigen::Vector2d from = outline[index], to = outline[(index + 1) % outline.size()];
+  const Eigen::Vector2d &from = outline[index], &to = outline[(index + 1) % outline.size()];
   return {from, to, (to - from).normalized()};
 }
 
