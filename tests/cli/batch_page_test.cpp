@@ -15,7 +15,7 @@ InputImage input_named(const std::string& name) {
   return input;
 }
 
-ImageResult result_with(std::vector<double> probabilities) {
+ImageResult result_with(const std::vector<double>& probabilities) {
   ImageResult result;
   result.device = "cpu";
   result.objects = {{1, "part"}};

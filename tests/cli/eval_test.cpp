@@ -179,7 +179,7 @@ TEST(Eval, DropsNothingUnlessAsked) {
 TEST(Eval, RefusesWhatItCannotEvaluate) {
   const TemporaryFolder folder;
   const BopResult good = truth_of_both_scenes()[0];
-  const auto results = [&](BopResult row) {
+  const auto results = [&](const BopResult& row) {
     save_bop_results({row}, folder.path() / "r.csv");
     return folder.path() / "r.csv";
   };

@@ -62,7 +62,7 @@ TEST(Scout, DoesNotGoOnFromALogOfTheFormerVersion) {
 TEST(Scout, DoesNotGoOnWithOtherTemplates) {
   const TemporaryFolder folder;
   const auto build = [&](const char* name, const char* viewpoints) {
-    const std::string file = folder.path() / name;
+    std::string file = folder.path() / name;
     EXPECT_EQ(run_program({"model", "build", part_file(1), "--unit", "mm", "--out", file,
                            "--device", "cpu", "--viewpoints", viewpoints, "--in-plane-steps", "8",
                            "--distance-min", "0.27", "--distance-max", "0.33"})

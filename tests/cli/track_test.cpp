@@ -20,7 +20,7 @@ Image moved(const Image& image, int by_px) {
   Image result = image;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
-      result.pixels[std::size_t(y * image.width + x)] =
+      result.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)] =
           image.at((x - by_px + image.width) % image.width, y);
   return result;
 }
