@@ -24,8 +24,7 @@ struct Objects {
       poses.push_back({part.object, part.world_from_object});
   }
   std::vector<ExtrinsicsCheck> check(const std::vector<ObjectView>& views) {
-    const std::vector<ExtrinsicsCheck> checks =
-        extrinsics_check({scene.models, views, *backend}, poses);
+    std::vector<ExtrinsicsCheck> checks = extrinsics_check({scene.models, views, *backend}, poses);
     log_disagreements(checks);
     return checks;
   }

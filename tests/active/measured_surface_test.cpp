@@ -60,7 +60,8 @@ TEST(MeasuredSurfaces, LieWhereTheyWereMeasuredFromAnotherCamera) {
   std::size_t there = 0, right = 0;
   for (int y = 0; y < t.camera.height; ++y)
     for (int x = 0; x < t.camera.width; ++x) {
-      const float found_m = seen[0].depth_m[std::size_t(y * t.camera.width + x)];
+      const float found_m =
+          seen[0].depth_m[std::size_t(y) * std::size_t(t.camera.width) + std::size_t(x)];
       const double true_m = t.depth_along(aside, {x, y});
       if (found_m == DEPTH_EMPTY) continue;
       ++there;

@@ -28,7 +28,7 @@ struct Boxes {
   void add(int x0, int y0, int w, int h, float z_m) {
     for (int y = y0; y < y0 + h; ++y)
       for (int x = x0; x < x0 + w; ++x) {
-        float& there_m = depth.z_m[std::size_t(width_px * y + x)];
+        float& there_m = depth.z_m[std::size_t(y) * std::size_t(width_px) + std::size_t(x)];
         there_m = std::min(there_m, z_m);
         if (x == x0 || x == x0 + w - 1 || y == y0 || y == y0 + h - 1)
           edges.push_back({float(x), float(y), 0, 50});
@@ -38,7 +38,7 @@ struct Boxes {
     DepthImage result = depth;
     for (int y = 0; y < height_px; ++y)
       for (int x = 0; x < width_px; ++x)
-        result.z_m[std::size_t(width_px * y + x)] =
+        result.z_m[std::size_t(y) * std::size_t(width_px) + std::size_t(x)] =
             depth.at(std::clamp(x - dx, 0, width_px - 1), std::clamp(y - dy, 0, height_px - 1));
     return result;
   }

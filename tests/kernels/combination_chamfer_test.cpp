@@ -84,9 +84,11 @@ class Drawn {
 
   // The depth from which on it hides.
   static void draw_surface(std::vector<double>& depth, const Member& member) {
-    for (int i = 0; i < width * height; ++i)
-      if (const auto z = test::box_depth(member.box, camera, i % width, i / width))
+    for (int i = 0; i < width * height; ++i) {
+      const int x = i % width, y = i / width;
+      if (const auto z = test::box_depth(member.box, camera, x, y))
         depth[i] = std::min(depth[i], *z + member.tolerance_m);
+    }
   }
   // Its own faces decide a convex body's edges exactly (box_edges), the z-buffer what the others
   // hide.

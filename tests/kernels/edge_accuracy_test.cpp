@@ -114,8 +114,9 @@ Measured measure(const Bound& bound, int pictures) {
   ThreadPool pool(1);
   Measured result;
   const int size = bound.radius_px > 0 ? static_cast<int>(2 * bound.radius_px) + 3 * margin : 64;
+  const int middle = size / 2;
   for (int k = 0; k < pictures; ++k) {
-    const double phi = unit(rng) * 2 * pi, cx = size / 2 + unit(rng), cy = size / 2 + unit(rng);
+    const double phi = unit(rng) * 2 * pi, cx = middle + unit(rng), cy = middle + unit(rng);
     const SignedDistance distance = [&](double x, double y) {
       return bound.radius_px > 0 ? bound.radius_px - std::hypot(x - cx, y - cy)
                                  : (x - cx) * std::cos(phi) + (y - cy) * std::sin(phi);

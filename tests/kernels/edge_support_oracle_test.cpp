@@ -16,7 +16,7 @@ struct OracleView {
   std::vector<std::uint32_t> map = support_map_reference(picture.view());
   bool supports(int x, int y, int bin) const {
     if (x < 0 || y < 0 || x >= picture.width || y >= picture.height) return false;
-    return map[std::size_t(y * picture.width + x)] & 1u << bin;
+    return map[std::size_t(y) * std::size_t(picture.width) + std::size_t(x)] & 1u << bin;
   }
 };
 

@@ -24,7 +24,7 @@ void add_step(Image& image, double normal_rad, double distance_px, double by) {
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       const double s = x * std::cos(normal_rad) + y * std::sin(normal_rad) - distance_px;
-      auto& pixel = image.pixels[std::size_t(y * image.width + x)];
+      auto& pixel = image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
       pixel = std::uint8_t(std::lround(pixel + by / (1 + std::exp(-4 * s))));
     }
 }
