@@ -1,4 +1,4 @@
-"""Follows a part from image to image. The example image, moved by some pixels, stands in for a video.
+"""Follows a part from image to image. The example image, moved by some pixels, is the video.
 
     python3 docs/examples/python/follow_part.py OUT.png
 """
