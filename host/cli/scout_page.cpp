@@ -52,13 +52,27 @@ class Page {
     return "<section class=legend><h2>Legend</h2><dl>"
            "<dt>green, orange<dd>Edges of the model that have an edge of the image near, or none."
            "<dt>red, green, blue axes<dd>x, y, z of the CAD frame, drawn at the centre of its box."
+           "<dt>image, view<dd>Images count from 1, in the order taken. Views are places of the "
+           "camera and count from 0."
+           "<dt>number beside an object<dd>Probability, rounded: 1.00 is 0.995 or more."
+           "<dt>ψ<dd>Agreement of the image's gradients with the model's edges, 0 to 1; about 0.64 "
+           "by chance."
+           "<dt>rings<dd>Elevation of the views, degrees; the middle is straight above. A number "
+           "in "
+           "a black dot is the image taken there."
+           "<dt>particle<dd>A sampled pose: a dot with the object's x and y axes, in a colour for "
+           "each model; opaque: heavy. Sampled anew (resampled) where few carry the weight; the "
+           "effective sample size says how many do."
+           "<dt>nat<dd>Unit of information, 1.44 bit."
            "<dt>edges<dd>Share of the visible model edges that have an edge of the image near."
            "<dt>σ place, σ direction<dd>Standard deviation of the pose, mean over the axes."
            "<dt>none alone<dd>No single image supports the object; all images together do."
            "<dt>combination<dd>A set of candidates that can exist together. "
            "The pictures show the likeliest and the unlikeliest of those that were sampled for "
            "the decision."
-           "<dt>entropy<dd>How undecided the belief is, nats; 0: every object is certain."
+           "<dt>entropy<dd>How undecided the belief is, nats: a sum over all places where an "
+           "object "
+           "may be, most of which are not reported. 0: each is certainly an object or none."
            "</dl></section>";
   }
 
@@ -79,7 +93,9 @@ class Page {
     if (const std::string images = disagreeing_images(state_); !images.empty())
       html += tile(images, "images whose camera pose disagrees");
     html += tile(fmt::format("{:.1f} s", state_.seconds()), "computing");
-    return html + tile(state_.end == ScoutEnd::No ? "looking …" : to_string(state_.end), "state") +
+    const bool ended = state_.end != ScoutEnd::No;
+    return html +
+           tile(ended ? to_string(state_.end) : "looking …", ended ? "why it ended" : "state") +
            "</div>";
   }
 
@@ -248,7 +264,7 @@ class Page {
     const auto row = [](const std::vector<StageSeconds>& stages) {
       std::string cells;
       for (const StageSeconds& stage : stages)
-        cells += fmt::format("<span class=stage>{} <b>{:.0f} ms</b></span>", stage.name,
+        cells += fmt::format("<span class=stage>{} <b>{:.0f} ms</b></span> ", stage.name,
                              1000 * stage.seconds);
       return cells;
     };

@@ -71,8 +71,10 @@ TEST(Scout, FindsThePartAndShowsHow) {
   EXPECT_EQ(count_of(page, "objects after this image"), 3u);
   EXPECT_EQ(count_of(page, "Likeliest combination"), 2u);
   EXPECT_EQ(count_of(page, "Unlikeliest combination"), 2u);
-  for (const char* word : {"green, orange", "none alone", "combination", "CAD frame"})
+  for (const char* word : {"green, orange", "none alone", "combination", "CAD frame",
+                           "Images count", "particle", "nat", "rings"})
     EXPECT_NE(page.find(word, page.find("<h2>Legend")), std::string::npos) << word;
+  EXPECT_EQ(page.find("</span><span class=stage"), std::string::npos) << "lines break between them";
   EXPECT_EQ(page.find("http-equiv=refresh"), std::string::npos) << "it is finished";
 }
 
