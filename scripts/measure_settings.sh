@@ -232,21 +232,19 @@ if [[ " ${parts[*]} " == *" settings "* ]]; then
   setting() {
     local name=$1 result=$2
     shift 2
-    measure "$name" "$result" "${heap}_3" "$heap/models" 0.05 "$@"
+    measure "$name" "$result" "${heap}_3" "$heap/models" "$probability" "$@"
   }
-  heading "settings, one view" "setting"
-  setting "defaults" settings_default "${range[@]}"
-  for probability in 0.1 0.25 0.4 0.5 0.75; do
-    measure "\`--min-probability $probability\`" settings_default "${heap}_3" "$heap/models" \
-      "$probability" "${range[@]}"
+  for probability in 0.05 0.4; do
+    heading "settings, one view, probability from $probability" "setting"
+    setting "defaults" settings_default "${range[@]}"
+    setting "\`--distance-min 0.34 --distance-max 0.52\`" settings_distance \
+      --distance-min 0.34 --distance-max 0.52
+    setting "\`--viewpoints 4 --in-plane-steps 18\`" settings_templates "${range[@]}" \
+      --viewpoints 4 --in-plane-steps 18
+    setting "\`--coarse-poses 4000 --medium-poses 400 --candidates 25\`" settings_few "${range[@]}" \
+      --coarse-poses 4000 --medium-poses 400 --candidates 25
+    setting "\`--coarse-poses 20000 --medium-poses 2500 --candidates 120\`" settings_many \
+      "${range[@]}" --coarse-poses 20000 --medium-poses 2500 --candidates 120
+    setting "\`--restart-rotation 0\`" settings_restart "${range[@]}" --restart-rotation 0
   done
-  setting "\`--distance-min 0.34 --distance-max 0.52\`" settings_distance \
-    --distance-min 0.34 --distance-max 0.52
-  setting "\`--viewpoints 4 --in-plane-steps 18\`" settings_templates "${range[@]}" \
-    --viewpoints 4 --in-plane-steps 18
-  setting "\`--coarse-poses 600 --candidates 25\`" settings_few "${range[@]}" \
-    --coarse-poses 600 --candidates 25
-  setting "\`--coarse-poses 6000 --candidates 120\`" settings_many "${range[@]}" \
-    --coarse-poses 6000 --candidates 120
-  setting "\`--restart-rotation 0\`" settings_restart "${range[@]}" --restart-rotation 0
 fi
