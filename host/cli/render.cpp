@@ -134,9 +134,11 @@ void add_camera_options(CLI::App& verb, RenderOptions& o) {
       .bounded("max-elevation", o.max_elevation_deg, 10.0, 90.0,
                "Highest elevation of the cameras over the board, degrees")
       .bounded("min-distance", o.min_distance_m, 0.0, 100.0,
-               "Smallest distance from the cameras to the parts, m. 0: so that they fill the image")
+               "Smallest distance from the cameras to the middle of the parts, m. 0: so that they "
+               "fill the image")
       .bounded("max-distance", o.max_distance_m, 0.0, 100.0,
-               "Largest distance from the cameras to the parts, m. 0: so that they fill the image");
+               "Largest distance from the cameras to the middle of the parts, m. 0: so that they "
+               "fill the image");
 }
 
 // Files and folders that scenes take things from.
