@@ -100,8 +100,7 @@ void add_options(CLI::App& verb, DetectRequest& request) {
             "Skip images that have a result of the same models and options")
       .flag("joint", request.batch.joint,
             "Detect in all views of a BOP scene at once. The scene must have world poses, and "
-            "nothing "
-            "in it may move")
+            "nothing in it may move")
       .flag("no-overlays", request.no_overlays, "Write no overlay pictures");
   add_shard(verb, request.batch.shard);
   add_max_seconds(verb, request.batch.max_seconds);

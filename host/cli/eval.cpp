@@ -314,7 +314,7 @@ void print_table(const std::vector<Row>& rows, const RecallOptions& o) {
       "{} images; truths seen by at least {:.0f} %; {}\n"
       "AR: {}\n"
       "AP: mean of BOP's average precisions (2024) MSSD and MSPD; of all: mean over the objects\n"
-      "pose: below {} rad and {} mm; mspd: below {} px; fp: estimates that match no truth so, an "
+      "pose: below {} rad and {} mm; mspd: below {} px; fp: estimates that match no truth so, per "
       "image\n\n"
       "{:>6}{:>7}{:>10}{:>7}{:>6}{:>6}{:>6}{:>7}{:>6}{:>6}{:>7}{:>9}{:>6}{:>6}\n",
       rows.back().recalls.images, 100 * o.min_visible_fraction, estimates,
