@@ -20,7 +20,19 @@ std::string size_of(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
+// Programs also write focal lengths in parts of the image's width, or in mm.
+void require_focal_px(const Camera& camera, const std::string& source) {
+  constexpr double least_of_side = 0.02;  // an ideal image of 175 degrees
+  const double longest_px = std::max(camera.fx, camera.fy);
+  if (longest_px < least_of_side * std::max(camera.width, camera.height))
+    throw InputError(source, "fx, fy",
+                     std::to_string(camera.fx) + " and " + std::to_string(camera.fy) +
+                         " px in an image of " + size_of(camera.width, camera.height),
+                     "focal lengths in px (these may be in mm, or in parts of the width)");
+}
+
 void validate_in_file(const Camera& camera, const std::string& source) {
+  require_focal_px(camera, source);
   // Without a size in the file, the principal point is checked when the image's size is known.
   Camera checked = camera;
   if (camera.width == 0) checked.width = checked.height = 1 << 20;
@@ -241,6 +253,7 @@ Camera camera_for_image(const Camera& calibration, int width, int height, bool a
     camera.cx = x * (camera.cx + 0.5) - 0.5;
     camera.cy = y * (camera.cy + 0.5) - 0.5;
   }
+  require_focal_px(camera, source);
   validate(camera, source);
   return camera;
 }

@@ -135,6 +135,15 @@ void join(Pinhole& pinhole, const Pinhole& other, const JsonField& field) {
   join_value(pinhole.skew, other.skew, "skew", field);
 }
 
+// OpenCV 1 wrote Intrinsics.xml and Distortion.xml.
+[[noreturn]] void fail_without_matrix(const CameraFields& fields, const Camera& camera) {
+  const bool has_lens = std::ranges::any_of(camera.distortion, [](double k) { return k != 0; });
+  throw InputError(fields.source(), fields.at("camera_matrix"),
+                   has_lens ? "the distortion alone" : "nothing",
+                   std::string("a 3x3 matrix (camera_matrix, K, cam_K ..), or fx, fy, cx and cy") +
+                       (has_lens ? ", in one file with the distortion" : ""));
+}
+
 }  // namespace
 
 void read_intrinsics(CameraFields& fields, Camera& camera) {
@@ -147,8 +156,7 @@ void read_intrinsics(CameraFields& fields, Camera& camera) {
     has_matrix = true;
   }
   if (!has_matrix && !found.fx && !found.fy && !found.cx && !found.cy)
-    throw InputError(fields.source(), fields.at("camera_matrix"), "nothing",
-                     "a 3x3 matrix (camera_matrix, K, cam_K ..), or fx, fy, cx and cy");
+    fail_without_matrix(fields, camera);
   for (const auto& [name, value] :
        {std::pair{"fx", found.fx}, {"fy", found.fy}, {"cx", found.cx}, {"cy", found.cy}})
     if (!value) throw InputError(fields.source(), fields.at(name), "nothing", "a number, px");

@@ -44,6 +44,9 @@ const std::map<std::string, LensWord, std::less<>> lens_words{
     {"rationalpolynomial", LensWord::Brown},
     {"rational", LensWord::Brown},
     {"pinholerational", LensWord::Brown},
+    {"distortedpinhole", LensWord::Brown},  // Kalibr's classes
+    {"equidistantpinhole", LensWord::Fisheye},
+    {"fovpinhole", LensWord::FieldOfView},
     {"radtan8", LensWord::Brown},
     {"pinholeradtan8", LensWord::Brown},
     {"brownconrady", LensWord::Brown},
@@ -180,6 +183,9 @@ void join(FoundModel& model, LensWord word, const JsonField& field) {
 
 // "k1", "k_1", "radial_k1" -> "k1". Empty: no coefficient.
 std::string coefficient_name(std::string_view name) {
+  // What the SDK of Azure Kinect prints.
+  if (name == "tangentialdistortioncoefficientx") return "p1";
+  if (name == "tangentialdistortioncoefficienty") return "p2";
   for (const std::string_view prefix :
        {"camera", "cam", "distortion", "dist", "radial", "tangential", "prism", "lens"})
     if (name.starts_with(prefix)) name.remove_prefix(prefix.size());
@@ -373,13 +379,21 @@ Coefficients radial_and_tangential(CameraFields& fields) {
   return found;
 }
 
-// openMVG's k1 k2 k3 p1 p2.
+// openMVG's k1, k1 k2 k3, k1 k2 k3 p1 p2: where each stands in OpenCV's order.
 Coefficients radial_before_tangential(CameraFields& fields) {
-  const std::optional<JsonField> field = fields.take({"distot2"});
-  if (!field) return {};
-  const std::vector<double> k = numbers_in_field(*field);
-  if (k.size() != 5) field->fail(std::to_string(k.size()) + " coefficients", "5");
-  return {{k[0], k[1], k[3], k[4], k[2]}, field->path};
+  const std::pair<std::string_view, std::vector<std::size_t>> orders[] = {
+      {"distok1", {0}}, {"distok3", {0, 1, 4}}, {"distot2", {0, 1, 4, 2, 3}}};
+  for (const auto& [name, places] : orders) {
+    const std::optional<JsonField> field = fields.take({name});
+    if (!field) continue;
+    const std::vector<double> k = numbers_in_field(*field);
+    if (k.size() != places.size())
+      field->fail(std::to_string(k.size()) + " coefficients", std::to_string(places.size()));
+    Coefficients found{std::vector<double>(5), field->path};
+    for (std::size_t i = 0; i < k.size(); ++i) found.values[places[i]] = k[i];
+    return found;
+  }
+  return {};
 }
 
 Coefficients listed_coefficients(CameraFields& fields) {

@@ -94,11 +94,14 @@ std::string between(const std::string& text, std::string_view before, char after
   return end == std::string::npos ? "" : text.substr(from, end - from);
 }
 
-// "[ 640x480  p[321 238]  f[700 701]  Brown Conrady [0 0 0 0 0] ]" of pyrealsense2.
+// "[ 640x480  p[321 238]  f[700 701]  Brown Conrady [0 0 0 0 0] ]" of pyrealsense2, also behind a
+// title with a colon.
 json realsense_print(const std::vector<std::string>& lines) {
   const std::string& line = lines.front();
-  const std::size_t focal_at = line.find(" f[");
-  if (lines.size() != 1 || line[0] != '[' || focal_at == std::string::npos) return nullptr;
+  const std::size_t focal_at = line.find(" f["), open = line.find('[');
+  if (lines.size() != 1 || focal_at == std::string::npos || open == std::string::npos ||
+      (open > 0 && !trimmed(line.substr(0, open)).ends_with(':')))
+    return nullptr;
   const json center = numbers_in(between(line, " p[", ']')),
              focal = numbers_in(between(line, " f[", ']'));
   const std::size_t model_at = line.find(']', focal_at) + 1, list_at = line.find('[', model_at);
@@ -110,6 +113,19 @@ json realsense_print(const std::vector<std::string>& lines) {
           {"fy", focal[1]},
           {"model", trimmed(line.substr(model_at, list_at - model_at))},
           {"coeffs", numbers_in(line.substr(list_at))}};
+}
+
+// "fx=700 fy=701, cx=321 cy=238" in one line.
+json assignments_in_a_line(const std::vector<std::string>& lines, const std::string& source) {
+  const std::vector<std::string> words = words_of(lines.front(), " \t,;");
+  if (lines.size() != 1 || words.size() < 2) return nullptr;
+  json camera = json::object();
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos || !is_name(word.substr(0, equals))) return nullptr;
+    add_field(camera, word.substr(0, equals), scalar_of(word.substr(equals + 1)), source);
+  }
+  return camera;
 }
 
 // A line of `ros2 topic echo --csv`, which has no names: stamp (2), frame_id, height, width, model,
@@ -184,6 +200,7 @@ std::string message_as_yaml(std::string_view text) {
 
 json printed_camera_tree(const std::vector<std::string>& lines, const std::string& source) {
   if (json tree = realsense_print(lines); !tree.is_null()) return tree;
+  if (json tree = assignments_in_a_line(lines, source); !tree.is_null()) return tree;
   if (json tree = ros2_rows(lines); !tree.is_null()) return tree;
   if (json tree = table_of_cameras(lines, source); !tree.is_null()) return tree;
   return names_before_numbers(lines, source);

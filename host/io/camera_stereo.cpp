@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "host/io/camera_reader.h"
 
@@ -66,11 +68,20 @@ bool is_of_camera(std::string_view name, const json& value, bool is_numbered) {
          (is_matrix_name(name) || is_distortion_name(name) || is_size(name));
 }
 
+// Middlebury's "cam0=[700 0 321; 0 701 238; 0 0 1]": the name of the camera is that of its matrix.
+bool is_intrinsic_matrix(const json& value) {
+  if (!value.is_array() || value.size() != 9 || !std::ranges::all_of(value, &json::is_number))
+    return false;
+  const std::vector<double> k = value;
+  return k[0] > 2 && k[4] > 2 && k[3] == 0 && k[6] == 0 && k[7] == 0 && k[8] == 1;
+}
+
 // Empty: the field has no side.
 SidedName sided_name(const std::string& written, const json& value) {
   const std::string plain = plain_name(written);
   const auto named = [](const std::string& name) { return name == "m" ? std::string("k") : name; };
   if (const auto end = side_before(plain)) {
+    if (*end == plain.size() && is_intrinsic_matrix(value)) return {plain, "k"};
     const std::string name = named(plain.substr(*end));
     if (is_of_camera(name, value, false)) return {plain.substr(0, *end), name};
   }

@@ -139,12 +139,20 @@ std::vector<std::string> with_whole_lists(const std::vector<std::string>& lines)
   return whole;
 }
 
-// name = value, below [sections]. A comment may end a line.
+// "np.array([[1, 2]], dtype=float)" -> "[[1, 2]]".
+std::string without_array(const std::string& value) {
+  const std::size_t open = value.find('['), close = value.rfind(']');
+  const bool is_array = open != std::string::npos && close != std::string::npos &&
+                        value.substr(0, open).ends_with("array(");
+  return is_array ? value.substr(open, close + 1 - open) : value;
+}
+
+// name = value, below [sections]. A comment may end a line. Also Python's assignments.
 json ini_cameras(const std::vector<std::string>& lines, const std::string& source) {
   json root = json::object();
   json* section = &root;
   for (const std::string& line : with_whole_lists(lines)) {
-    if (line.empty()) continue;
+    if (line.empty() || line.starts_with("import ") || line.starts_with("from ")) continue;
     if (is_section(line)) {
       const std::string name = line.substr(1, line.size() - 2);
       add_field(root, name, json::object(), source);
@@ -153,12 +161,45 @@ json ini_cameras(const std::vector<std::string>& lines, const std::string& sourc
     }
     const std::size_t equals = line.find('=');
     if (equals == std::string::npos || equals == 0 || line.find(':') < equals) return nullptr;
-    std::string value = trimmed(line.substr(equals + 1));
+    std::string value = without_array(trimmed(line.substr(equals + 1)));
     if (value.size() > 1 && value.front() == '"' && value.back() == '"')
       value = value.substr(1, value.size() - 2);
     add_field(*section, trimmed(line.substr(0, equals)), value_in(value), source);
   }
   return root;
+}
+
+// What MATLAB shows of an object: "FocalLength: [700 701]" below "cameraIntrinsics with
+// properties:". A value such as "[3x3 double]" is not shown.
+json matlab_display(const std::vector<std::string>& lines, const std::string& source) {
+  const auto is_heading = [](const std::string& line) {
+    return line.ends_with("with properties:");
+  };
+  if (std::ranges::none_of(lines, is_heading)) return nullptr;
+  json camera = json::object();
+  for (const std::string& line : lines) {
+    const std::size_t colon = line.find(": ");
+    if (colon == std::string::npos) continue;
+    const json value = value_in(trimmed(line.substr(colon + 2)));
+    if (!value.is_string()) add_field(camera, line.substr(0, colon), value, source);
+  }
+  return camera;
+}
+
+// KITTI: "P0: 12 numbers", beside transforms of other sensors. A rectified image whose camera
+// stands beside the first has the same left part.
+json kitti_cameras(const std::vector<std::string>& lines) {
+  json cameras = json::object();
+  for (const std::string& line : lines) {
+    const std::size_t colon = std::min(line.find(':'), line.size());
+    const std::string name = line.substr(0, colon);
+    const json p = numbers_in(std::string_view(line).substr(std::min(colon + 1, line.size())));
+    const bool is_camera = name.size() == 2 && name[0] == 'P' && name[1] >= '0' && name[1] <= '9';
+    const bool is_of_others = name.starts_with("Tr") || name.starts_with("R0");
+    if (p.is_null() || (is_camera ? p.size() != 12 : !is_of_others)) return nullptr;
+    if (is_camera) cameras[name]["K"] = {p[0], p[1], p[2], p[4], p[5], p[6], p[8], p[9], p[10]};
+  }
+  return cameras.empty() ? json(nullptr) : cameras;
 }
 
 }  // namespace
@@ -167,9 +208,12 @@ json text_camera_tree(std::string_view text, const std::string& source) {
   const std::vector<std::string> lines = lines_of(text);
   if (lines.empty()) return nullptr;
   if (json tree = numbers_alone(lines); !tree.is_null()) return tree;
+  if (json tree = kalibr_results(lines, source); !tree.is_null()) return tree;
   if (json tree = colmap_cameras(lines); !tree.is_null()) return tree;
   if (json tree = ost_cameras(lines, source); !tree.is_null()) return tree;
   if (json tree = realsense_cameras(lines, source); !tree.is_null()) return tree;
+  if (json tree = matlab_display(lines, source); !tree.is_null()) return tree;
+  if (json tree = kitti_cameras(lines); !tree.is_null()) return tree;
   if (json tree = printed_camera_tree(lines, source); !tree.is_null()) return tree;
   return ini_cameras(lines, source);
 }

@@ -21,6 +21,8 @@ nlohmann::json xml_camera_tree(std::string_view text, const std::string& source)
 // -c`, and INI. Null: the text is none of these.
 nlohmann::json text_camera_tree(std::string_view text, const std::string& source);
 
+// Kalibr's results-cam.txt and results-imucam.txt, as lines without empty ones. Null: neither.
+nlohmann::json kalibr_results(const std::vector<std::string>& lines, const std::string& source);
 // What programs print of a camera, as lines without empty ones: a table below names (rostopic echo
 // -p) with commas, semicolons or tabs, cells in quotes or not; ROS 2's rows without names; a name
 // and its numbers in each line; librealsense's intrinsics. Null: none of these.

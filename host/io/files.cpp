@@ -115,7 +115,10 @@ std::string read_file(const fs::path& file) {
   content << stream.rdbuf();
   if (stream.bad() || content.bad())
     throw InputError(file.string(), "file", "a read error", "a readable file");
-  return std::move(content).str();
+  std::string text = std::move(content).str();
+  if (text.starts_with("version https://git-lfs.github.com/spec/"))
+    throw InputError(file.string(), "file", "a pointer of Git LFS", "its content (git lfs pull)");
+  return text;
 }
 
 void write_file_atomically(const fs::path& file, std::string_view content, Flush flush) {
