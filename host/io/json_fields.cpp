@@ -1,5 +1,6 @@
 #include "host/io/json_fields.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <set>
@@ -115,9 +116,24 @@ std::vector<NumberedField> numbered_fields(const JsonField& parent) {
   return fields;
 }
 
+namespace {
+
+// 9 numbers by row, or 3 rows of 3.
+std::vector<double> matrix_in(const JsonField& field) {
+  const bool has_rows = field.value.is_array() && field.value.size() == 3 &&
+                        std::ranges::all_of(field.value, &nlohmann::json::is_array);
+  if (!has_rows) return field.numbers(9);
+  std::vector<double> numbers;
+  for (const JsonField& row : field.elements())
+    for (const double number : row.numbers(3)) numbers.push_back(number);
+  return numbers;
+}
+
+}  // namespace
+
 Se3 pose_from(const JsonField& rotation, const JsonField& translation, double metres_per_unit,
               ProjectedRotations& projected) {
-  const std::vector<double> r = rotation.numbers(9), t = translation.numbers(3);
+  const std::vector<double> r = matrix_in(rotation), t = translation.numbers(3);
   const Eigen::Matrix3d matrix =
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(r.data());
   const std::optional<Se3> pose =

@@ -47,6 +47,21 @@ StartPose from_entry(const JsonField& entry, ProjectedRotations& projected) {
   return pose;
 }
 
+// BOP's scene_gt.json: lists of objects by the number of the image, in mm.
+std::vector<StartPose> from_bop_truth(const JsonField& root, ProjectedRotations& projected) {
+  constexpr double metres_per_mm = 1e-3;
+  std::vector<StartPose> poses;
+  for (const auto& [image_id, objects] : numbered_fields(root))
+    for (const JsonField& entry : objects.elements()) {
+      StartPose& pose = poses.emplace_back();
+      pose.image_id = image_id;
+      pose.object_id = entry.at("obj_id").integer();
+      pose.camera_from_object =
+          pose_from(entry.at("cam_R_m2c"), entry.at("cam_t_m2c"), metres_per_mm, projected);
+    }
+  return poses;
+}
+
 }  // namespace
 
 std::vector<StartPose> load_start_poses(const std::filesystem::path& file) {
@@ -55,8 +70,13 @@ std::vector<StartPose> load_start_poses(const std::filesystem::path& file) {
   const nlohmann::json content = read_json(file);
   std::vector<StartPose> poses;
   ProjectedRotations projected;
-  for (const JsonField& entry : JsonField{content, file.string(), ""}.elements())
-    poses.push_back(from_entry(entry, projected));
+  const JsonField root{content, file.string(), ""};
+  if (content.is_object() && !root.has("image"))
+    poses = from_bop_truth(root, projected);
+  else if (content.is_object())
+    poses.push_back(from_entry(root, projected));
+  else
+    for (const JsonField& entry : root.elements()) poses.push_back(from_entry(entry, projected));
   warn_of_projected(projected, file.string());
   return poses;
 }

@@ -1,8 +1,8 @@
 // Reads poses from which a registration starts, whatever program made them.
 //
-// Three formats are read: a BOP results CSV (.csv), a result of this program (results.h), and a
-// JSON list
-//   [{"image": 12 or "000012.png", "object": 1, "R": 9 numbers by row, "t": 3 in metres,
+// Four formats are read: a BOP results CSV (.csv), a result of this program (results.h), BOP's
+// scene_gt.json, and a JSON list
+//   [{"image": 12 or "000012.png", "object": 1, "R": 9 numbers or 3 rows, "t": 3 in metres,
 //     "scene": 48 (optional), "camera": "cam1" (optional), "score": 0.7 (optional)}, ...]
 // where R and t map the object frame to the camera frame.
 //

@@ -261,7 +261,32 @@ TEST(StartPoses, ComeFromAPlainList) {
   expect_input_error(
       [&] { bad(R"([{"image": 1, "object": 3, "R": [1,0,0,0,1,0,0,0,1], "t": [0,null,1]}])"); },
       {"/0/t/1", "null"});
-  expect_input_error([&] { bad(R"({"poses": []})"); }, {"bad.json", "an array"});
+  expect_input_error([&] { bad(R"({"poses": []})"); }, {"bad.json", "poses", "a whole number"});
+}
+
+TEST(StartPoses, ComeFromTheTruthOfABopScene) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("scene_gt.json", R"({"12": [
+    {"cam_R_m2c": [0,-1,0,1,0,0,0,0,1], "cam_t_m2c": [10, 20, 300], "obj_id": 3},
+    {"cam_R_m2c": [1,0,0,0,1,0,0,0,1], "cam_t_m2c": [0, 0, 500], "obj_id": 4}], "13": []})");
+  const std::vector<StartPose> poses = load_start_poses(file);
+  ASSERT_EQ(poses.size(), 2u);
+  EXPECT_EQ(poses[0].object_id, 3);
+  EXPECT_TRUE(belongs_to(poses[1], {"any.png", 48, 12, ""}));
+  EXPECT_FALSE(belongs_to(poses[1], {"any.png", 48, 13, ""}));
+  EXPECT_LT((poses[0].camera_from_object * Vector3d::UnitX() - Vector3d(0.01, 1.02, 0.3)).norm(),
+            1e-12);
+}
+
+TEST(StartPoses, AreOneOrHaveMatricesOfRows) {
+  const TemporaryFolder folder;
+  const std::string pose =
+      R"({"image": 1, "object": 3, "R": [[0,-1,0],[1,0,0],[0,0,1]], "t": [0, 0, 1]})";
+  for (const std::string& text : {pose, "[" + pose + "]"}) {
+    const std::vector<StartPose> poses = load_start_poses(folder.write("p.json", text));
+    ASSERT_EQ(poses.size(), 1u);
+    EXPECT_LT((poses[0].camera_from_object * Vector3d::UnitX() - Vector3d(0, 1, 1)).norm(), 1e-12);
+  }
 }
 
 }  // namespace
