@@ -331,13 +331,13 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
   } catch (const std::exception& error) {
     summary.error = error.what();
     summary.seconds = seconds_since(start);
-    write_ended(own, summary, backend.name(), options.out);
+    write_ended(own, summary, backend.name(), {options.out, options.thumbnails});
     throw;
   }
   detector.depth_warnings.log_warnings();
   detector.require_any_usable();
   summary.seconds = seconds_since(start);
-  write_tables(own, summary, backend.name(), options.out);
+  write_tables(own, summary, backend.name(), {options.out, options.thumbnails});
   return summary;
 }
 

@@ -23,6 +23,7 @@ struct BatchOptions {
   bool resume = false;
   bool joint = false;  // all views of a BOP scene at once
   bool overlays = true;
+  int thumbnails = TableFiles{}.thumbnails;
   std::optional<Shard> shard;  // absent: all images
   std::string version;         // of the program, for shard.json
   // Whether the given backend finds the edges, and not a thread of the processor beside it. Absent:

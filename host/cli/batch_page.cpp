@@ -9,6 +9,7 @@
 #include "host/cli/batch_page_script.h"
 #include "host/cli/page_parts.h"
 #include "host/io/json_text.h"
+#include "host/io/thumbnail.h"
 
 namespace edgescout {
 
@@ -102,21 +103,41 @@ std::string stage_table(const BatchTables& tables) {
   return html + "</table>";
 }
 
-// The images as the script reads them: failed and missing ones first, as listed.
-nlohmann::json listed(const std::vector<PageImage>& images) {
-  nlohmann::json folders = nlohmann::json::array(), list = nlohmann::json::array();
-  std::map<std::filesystem::path, std::size_t> numbers;
+// An image of the page's list.
+struct Listed {
+  const PageImage* image;
+  std::filesystem::path overlay;  // empty: there is none
+};
+
+// Failed and missing images first, then the others, each as listed.
+std::vector<Listed> listed(const std::vector<PageImage>& images,
+                           const std::filesystem::path& folder) {
+  std::vector<Listed> list;
+  std::error_code unknown;
   for (const bool is_done : {false, true})
     for (const PageImage& image : images) {
       if ((image.state == PageImage::State::Done) != is_done || list.size() == MOST_LISTED)
         continue;
-      const auto [folder, is_new] = numbers.emplace(image.folder, numbers.size());
-      if (is_new) folders.push_back(image.folder.generic_string());
-      list.push_back({image.name, folder->second, static_cast<int>(image.state), image.poses,
-                      std::round(1000 * image.best_probability) / 1000,
-                      std::round(1000 * image.seconds) / 1000, image.message});
+      Listed& entry = list.emplace_back(Listed{&image, {}});
+      const std::filesystem::path overlay = folder / image.folder / (image.name + "_overlay.png");
+      if (is_done && std::filesystem::is_regular_file(overlay, unknown)) entry.overlay = overlay;
     }
-  return {{"folders", folders}, {"images", list}};
+  return list;
+}
+
+// The images as the script reads them.
+nlohmann::json images_as_json(const std::vector<Listed>& list) {
+  nlohmann::json folders = nlohmann::json::array(), images = nlohmann::json::array();
+  std::map<std::filesystem::path, std::size_t> numbers;
+  for (const auto& [image, overlay] : list) {
+    const auto [folder, is_new] = numbers.emplace(image->folder, numbers.size());
+    if (is_new) folders.push_back(image->folder.generic_string());
+    images.push_back({image->name, folder->second, static_cast<int>(image->state), image->poses,
+                      std::round(1000 * image->best_probability) / 1000,
+                      std::round(1000 * image->seconds) / 1000, image->message,
+                      overlay.empty() ? 0 : 1});
+  }
+  return {{"folders", folders}, {"images", images}};
 }
 
 // "</script>" in a message would end the script, "<!--" with "<script" hide its end.
@@ -126,33 +147,58 @@ std::string in_script(const nlohmann::json& json) {
   return text;
 }
 
-std::string gallery(const BatchTables& tables) {
+std::string gallery_start(const BatchTables& tables, const std::vector<Listed>& list,
+                          int thumbnails) {
   std::string html = "<section><h2>Images <small id=shown></small></h2>";
   if (tables.images.size() > MOST_LISTED)
     html += fmt::format(
         "<p class=warning>{} of {} images are listed here: those that failed or are missing, then "
         "the first others. The counts above are of all.</p>",
         thousands(MOST_LISTED), thousands(tables.images.size()));
+  const auto overlays =
+      std::ranges::count_if(list, [](const Listed& entry) { return !entry.overlay.empty(); });
+  if (overlays > thumbnails)
+    html += fmt::format(
+        "<p class=warning>{} of {} pictures are in this page (--thumbnails). The others are the "
+        "files NAME_overlay.png, shown while the page lies in its folder.</p>",
+        thousands(static_cast<std::size_t>(thumbnails)),
+        thousands(static_cast<std::size_t>(overlays)));
   return html + GALLERY_CONTROLS +
          "<div id=grid class=grid></div><div class=pager></div>"
          "<noscript><p class=warning>The pictures are shown by a script of this page, which the "
          "browser does not run. They are the files NAME_overlay.png.</p></noscript></section>"
          "<script type='application/json' id=data>" +
-         in_script(listed(tables.images)) + "</script><script>" + GALLERY_SCRIPT + "</script>";
+         in_script(images_as_json(list)) + "</script>";
+}
+
+// Each is text of its own, which the script makes a picture of when its image is shown.
+void write_thumbnails(const std::vector<Listed>& list, int thumbnails,
+                      const std::function<void(std::string_view)>& write) {
+  for (std::size_t i = 0; i < list.size() && thumbnails > 0; ++i) {
+    if (list[i].overlay.empty()) continue;
+    --thumbnails;
+    if (const std::optional<std::string> jpeg = thumbnail_in(list[i].overlay))
+      write(fmt::format("<script type='text/plain' id=picture{}>{}</script>\n", i, base64(*jpeg)));
+  }
 }
 
 }  // namespace
 
-std::string batch_page(const BatchTables& tables, const BatchSummary& summary,
-                       const std::string& device) {
-  std::string body = fmt::format("<header><h1>edgescout <em>{}</em></h1><p>{}</p></header>",
-                                 escaped_html(summary.verb), escaped_html(device));
-  body += tiles(tables, summary) + warnings(summary);
-  body += "<div class=row><section><h2>Probabilities of the poses</h2>" + histogram(tables) +
-          "</section><section><h2>Time by stage</h2>" + stage_table(tables) + "</section></div>";
-  body += gallery(tables);
-  return html_page("edgescout " + escaped_html(summary.verb),
-                   std::string("<style>") + GALLERY_STYLE + "</style>", body);
+void write_batch_page(const BatchTables& tables, const BatchSummary& summary,
+                      const std::string& device, const PagePictures& pictures,
+                      const std::function<void(std::string_view)>& write) {
+  write(html_page_start("edgescout " + escaped_html(summary.verb),
+                        std::string("<style>") + GALLERY_STYLE + "</style>"));
+  write(fmt::format("<header><h1>edgescout <em>{}</em></h1><p>{}</p></header>",
+                    escaped_html(summary.verb), escaped_html(device)));
+  write(tiles(tables, summary) + warnings(summary));
+  write("<div class=row><section><h2>Probabilities of the poses</h2>" + histogram(tables) +
+        "</section><section><h2>Time by stage</h2>" + stage_table(tables) + "</section></div>");
+  const std::vector<Listed> list = listed(tables.images, pictures.folder);
+  write(gallery_start(tables, list, pictures.thumbnails));
+  write_thumbnails(list, pictures.thumbnails, write);
+  write(std::string("<script>") + GALLERY_SCRIPT + "</script>");
+  write(HTML_PAGE_END);
 }
 
 }  // namespace edgescout

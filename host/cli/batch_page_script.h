@@ -15,7 +15,7 @@ inline constexpr const char* GALLERY_STYLE = R"(
 .controls input,.controls select,.pager button,.pager input{font:inherit;padding:4px 10px;border:1px solid var(--line);border-radius:8px;background:#fff;color:var(--ink)}
 .controls #find{width:210px}.pager input{width:70px;text-align:right}
 .pager button{cursor:pointer}.pager button:disabled{opacity:.4;cursor:default}
-.grid{display:grid;grid-template-columns:repeat(auto-fill,minmax(240px,1fr));gap:16px;margin-bottom:16px}
+.grid{display:grid;grid-template-columns:repeat(auto-fill,minmax(200px,1fr));gap:16px;margin-bottom:16px}
 .card{border:1px solid var(--line);border-radius:10px;overflow:hidden;background:#fff;min-width:0}
 .card .view{display:flex;align-items:center;justify-content:center;aspect-ratio:4/3;background:#eef1f5;color:var(--soft);font-size:13px;overflow:hidden;text-decoration:none}
 .card img{width:100%;height:100%;object-fit:contain;display:block}
@@ -33,8 +33,9 @@ inline constexpr const char* GALLERY_CONTROLS =
     "class=pager></div></div>";
 
 inline constexpr const char* GALLERY_SCRIPT = R"(
-const data=JSON.parse(document.getElementById('data').textContent),perPage=48;
-const [NAME,FOLDER,STATE,POSES,BEST,SECONDS,MESSAGE]=[0,1,2,3,4,5,6];
+const data=JSON.parse(document.getElementById('data').textContent),perPage=50;
+const [NAME,FOLDER,STATE,POSES,BEST,SECONDS,MESSAGE,OVERLAY,NUMBER]=[0,1,2,3,4,5,6,7,8];
+data.images.forEach((i,n)=>i[NUMBER]=n);
 const find=document.getElementById('find'),order=document.getElementById('order'),grid=document.getElementById('grid');
 const bad=i=>i[STATE]>0?0:1;
 const orders={failed:null,least:(a,b)=>bad(a)-bad(b)||a[BEST]-b[BEST],most:(a,b)=>b[POSES]-a[POSES],slow:(a,b)=>b[SECONDS]-a[SECONDS]};
@@ -44,8 +45,9 @@ const link=(i,ending)=>[...(data.folders[i[FOLDER]]||'').split('/').filter(s=>s)
 function card(i){
   const name=make('b',{textContent:i[NAME],title:i[NAME]});
   if(i[STATE]>0)return make('div',{className:'card bad'},make('div',{className:'view',textContent:i[MESSAGE]}),make('p',{},name,i[STATE]==1?'failed':'missing'));
-  const view=make('a',{className:'view',href:link(i,'_overlay.png')});
-  view.append(make('img',{alt:'',loading:'lazy',src:link(i,'_overlay.png'),onerror(){view.removeAttribute('href');view.textContent='no overlay'}}));
+  const overlay=link(i,'_overlay.png'),thumbnail=document.getElementById('picture'+i[NUMBER]);
+  const view=i[OVERLAY]?make('a',{className:'view',href:overlay,title:overlay}):make('div',{className:'view',textContent:'no overlay'});
+  if(i[OVERLAY])view.append(make('img',{alt:'',loading:'lazy',src:thumbnail?'data:image/jpeg;base64,'+thumbnail.textContent:overlay,onerror(){view.textContent='not in this page'}}));
   const poses=i[POSES]==0?'no pose':i[POSES]+(i[POSES]==1?' pose':' poses')+', best '+i[BEST].toFixed(2);
   return make('div',{className:'card'},view,make('p',{},name,poses+' · '+i[SECONDS].toFixed(2)+' s · ',make('a',{href:link(i,'.json'),textContent:'json'})));
 }

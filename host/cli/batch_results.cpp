@@ -159,13 +159,17 @@ void write_summary(const BatchSummary& summary, const std::string& device, const
 }
 
 void write_rows(const BatchTables& tables, BatchSummary& summary, const std::string& device,
-                const fs::path& out) {
+                const TableFiles& files) {
+  const fs::path& out = files.out;
   summary.poses = static_cast<int>(tables.rows.size());
   summary.out_of_sight = tables.out_of_sight;
   summary.incomplete = tables.incomplete;
   save_bop_results(tables.rows, out / "results.csv");
   write_csv_of_cameras(tables.rows, tables.cameras, out);
-  write_file_atomically(out / "report.html", batch_page(tables, summary, device));
+  AtomicFile page(out / "report.html");
+  write_batch_page(tables, summary, device, {out, files.thumbnails},
+                   [&](std::string_view part) { page.write(part); });
+  page.finish();
 }
 
 BatchTables tables_of(std::span<const InputImage> images, const BatchSummary& summary,
@@ -186,18 +190,18 @@ BatchTables tables_of(std::span<const InputImage> images, const BatchSummary& su
 }  // namespace
 
 void write_tables(const BatchTables& tables, BatchSummary& summary, const std::string& device,
-                  const fs::path& out) {
-  write_rows(tables, summary, device, out);
-  write_summary(summary, device, out);
+                  const TableFiles& files) {
+  write_rows(tables, summary, device, files);
+  write_summary(summary, device, files.out);
 }
 
 void write_tables(std::span<const InputImage> images, BatchSummary& summary,
-                  const std::string& device, const fs::path& out) {
-  write_tables(tables_of(images, summary, out), summary, device, out);
+                  const std::string& device, const TableFiles& files) {
+  write_tables(tables_of(images, summary, files.out), summary, device, files);
 }
 
 void write_ended(std::span<const InputImage> images, BatchSummary& summary,
-                 const std::string& device, const fs::path& out) {
+                 const std::string& device, const TableFiles& files) {
   const auto try_to = [](const std::function<void()>& write) {
     try {
       write();
@@ -206,10 +210,10 @@ void write_ended(std::span<const InputImage> images, BatchSummary& summary,
     }
   };
   try_to([&] {
-    require_writable_folder(out);  // the folder does not exist before the first result
-    write_rows(tables_of(images, summary, out), summary, device, out);
+    require_writable_folder(files.out);  // the folder does not exist before the first result
+    write_rows(tables_of(images, summary, files.out), summary, device, files);
   });
-  try_to([&] { write_summary(summary, device, out); });
+  try_to([&] { write_summary(summary, device, files.out); });
 }
 
 }  // namespace edgescout

@@ -68,20 +68,25 @@ void start_anew(const std::filesystem::path& out, std::span<const InputImage> im
 // Removes those of the files that are there. What is no regular file stays.
 void remove_files_of_run(std::vector<std::filesystem::path> files);
 
+struct TableFiles {
+  std::filesystem::path out;
+  int thumbnails = 2000;  // of images in report.html, at most; the file then stays below 20 MB
+};
+
 // Writes results.csv (of scenes with several cameras also results_CAMERA.csv), report.html and
 // summary.json (counts, throughput, mean time of every stage, failures, what is missing, and the
 // error that ended the batch). Counts in the summary the poses and those out of sight.
 void write_tables(const BatchTables& tables, BatchSummary& summary, const std::string& device,
-                  const std::filesystem::path& out);
+                  const TableFiles& files);
 
 // The same, from the JSON files of the finished images. JSON files that an earlier run left for
 // other images are not used.
 void write_tables(std::span<const InputImage> images, BatchSummary& summary,
-                  const std::string& device, const std::filesystem::path& out);
+                  const std::string& device, const TableFiles& files);
 
 // Writes them for a batch that an error ends, so that those of an earlier run do not remain. If
 // writing fails, that is logged: the first error is the one to report.
 void write_ended(std::span<const InputImage> images, BatchSummary& summary,
-                 const std::string& device, const std::filesystem::path& out);
+                 const std::string& device, const TableFiles& files);
 
 }  // namespace edgescout

@@ -66,6 +66,13 @@ void add_max_seconds(CLI::App& verb, double& max_seconds) {
                "worked on together, s. Then the poses found so far are written. 0: no limit");
 }
 
+void add_thumbnails(CLI::App& verb, int& thumbnails) {
+  OptionTable(verb, "Batch")
+      .bounded("thumbnails", thumbnails, 0, 20000,
+               "Images whose thumbnail is in report.html, at most. The overlays of the others are "
+               "shown from their files");
+}
+
 void add_scale_camera(CLI::App& verb, bool& scale_camera) {
   OptionTable(verb, "Batch", OptionLevel::Expert)
       .flag("scale-camera", scale_camera,

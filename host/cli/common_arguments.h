@@ -26,6 +26,7 @@ void add_camera_choice(CLI::App& verb, CameraArguments& camera);  // the last tw
 void add_results_folder(CLI::App& verb, std::string& out);        // --out, required
 void add_device(CLI::App& verb, std::string& device);             // --device; shows its default
 void add_max_seconds(CLI::App& verb, double& max_seconds);        // --max-seconds
+void add_thumbnails(CLI::App& verb, int& thumbnails);             // --thumbnails
 void add_scale_camera(CLI::App& verb, bool& scale_camera);        // --scale-camera
 
 // The backend of --device. Its kernels are timed where the log shows their times.

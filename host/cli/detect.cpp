@@ -102,6 +102,7 @@ void add_options(CLI::App& verb, DetectRequest& request) {
             "Detect in all views of a BOP scene at once. The scene must have world poses, and "
             "nothing in it may move")
       .flag("no-overlays", request.no_overlays, "Write no overlay pictures");
+  add_thumbnails(verb, request.batch.thumbnails);
   add_shard(verb, request.batch.shard);
   add_max_seconds(verb, request.batch.max_seconds);
   add_scale_camera(verb, request.batch.scale_camera);

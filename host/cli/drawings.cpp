@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "host/active/views.h"
+#include "host/cli/page_parts.h"
 #include "host/model/visible_edges.h"
 #include "host/render/raster.h"
 #include "kernels/backend.h"
@@ -124,19 +125,7 @@ bool shows(const Eigen::Vector2d& pixel, double z_m, double tolerance_m, const C
 
 }  // namespace
 
-std::string inline_png(const std::string& png) {
-  constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text = "data:image/png;base64,";
-  for (std::size_t i = 0; i < png.size(); i += 3) {
-    const std::size_t bytes = std::min<std::size_t>(3, png.size() - i);
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      word = word << 8 | (k < bytes ? static_cast<unsigned char>(png[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += k <= bytes ? letters[word >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
+std::string inline_png(const std::string& png) { return "data:image/png;base64," + base64(png); }
 
 std::string heat_colour(double fraction) {
   // Viridis at nine points.

@@ -20,6 +20,7 @@ namespace {
 struct MergeRequest {
   std::vector<fs::path> shards;
   std::string out;
+  int thumbnails = TableFiles{}.thumbnails;
 };
 
 // The tables of a shard are not to be replaced by those of the whole.
@@ -48,7 +49,7 @@ int merge(const MergeRequest& request) {
   const FolderLock lock(request.out);
   MergedBatch merged = merge_shards(request.shards, request.out);
   BatchSummary& summary = merged.summary;
-  write_tables(merged.tables, summary, merged.device, request.out);
+  write_tables(merged.tables, summary, merged.device, {request.out, request.thumbnails});
   warn_of_missing(summary.missing);
   int missing = 0;
   for (const MissingPart& part : summary.missing) missing += part.images;
@@ -70,6 +71,7 @@ void add_merge(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("OUT");
   add_results_folder(*verb, request->out);
+  add_thumbnails(*verb, request->thumbnails);
   verb->callback([request, &exit_code] { exit_code = merge(*request); });
 }
 

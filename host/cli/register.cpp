@@ -129,6 +129,7 @@ void add_options(CLI::App& verb, RegisterRequest& request) {
       .flag("resume", request.options.resume,
             "Skip images that have a result of the same models and options")
       .flag("no-overlays", request.no_overlays, "Write no overlay pictures");
+  add_thumbnails(verb, request.options.thumbnails);
   add_shard(verb, request.options.shard);
   add_max_seconds(verb, request.options.max_seconds);
   add_scale_camera(verb, request.options.scale_camera);

@@ -260,7 +260,7 @@ RegisterSummary run_register(std::span<const RegisterJob> all_jobs,
   const auto write_summary_of = [&](const std::exception& error) {
     summary.error = error.what();
     summary.seconds = seconds_since(start);
-    write_ended(images, summary, backend.name(), options.out);
+    write_ended(images, summary, backend.name(), {options.out, options.thumbnails});
   };
   try {
     work_through(open, run, options.shard.has_value());
@@ -273,7 +273,7 @@ RegisterSummary run_register(std::span<const RegisterJob> all_jobs,
     throw;
   }
   summary.seconds = seconds_since(start);
-  write_tables(images, summary, backend.name(), options.out);
+  write_tables(images, summary, backend.name(), {options.out, options.thumbnails});
   return summary;
 }
 

@@ -23,6 +23,7 @@ struct RegisterOptions {
   bool scale_camera = false;
   bool resume = false;
   bool overlays = true;
+  int thumbnails = TableFiles{}.thumbnails;
   std::optional<Shard> shard;  // as in BatchOptions
   std::string version;
   double max_seconds = 0;    // of each registration; 0: no limit

@@ -1,6 +1,6 @@
 #include "host/cli/view_results.h"
 
-#include "host/io/image.h"
+#include "host/io/thumbnail.h"
 #include "host/overlay.h"
 
 namespace edgescout {
@@ -38,7 +38,7 @@ void save_overlay(const InputImage& input, const Scene& scene,
   for (const Detection& d : detections)
     poses.push_back({d.object, view.camera_from_world * d.world_from_object, d.probability,
                      scene.models[static_cast<std::size_t>(d.object)].mesh.name});
-  save_png(
+  save_png_with_thumbnail(
       draw_overlay(*view.image, view.camera, poses, scene.models, view.edges.get(), scene.backend),
       overlay_of(out, input));
 }

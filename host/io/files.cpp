@@ -31,6 +31,8 @@ fs::path temporary_beside(const fs::path& file) {
   return file.parent_path() / name.str();
 }
 
+}  // namespace
+
 // An open temporary file in the folder of `file`. It is deleted unless it is renamed to its target.
 // A lock marks it as in use; the system drops the lock when the process ends, however it ends.
 class TemporaryFile {
@@ -81,6 +83,8 @@ class TemporaryFile {
   bool renamed_ = false;
 };
 
+namespace {
+
 bool is_locked(const fs::path& file) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return true;  // not to be touched
@@ -96,6 +100,11 @@ void require_writable(const fs::path& where, const fs::path& folder) {
   if (const int error = probe.flush())
     throw InputError(folder.string(), "output folder", reason(error),
                      "a folder that can be written");
+}
+
+void require_written(const fs::path& file, int error) {
+  if (error)
+    throw InputError(file.string(), "output file", reason(error), "a file that can be written");
 }
 
 }  // namespace
@@ -127,13 +136,21 @@ void write_file_atomically(const fs::path& file, std::string_view content, Flush
 
 void write_parts_atomically(const fs::path& file, std::initializer_list<std::string_view> parts,
                             Flush flush) {
-  TemporaryFile temporary(file);
-  int error = 0;
-  for (const std::string_view part : parts) error = temporary.write(part);
-  if (flush == Flush::Yes) error = temporary.flush();
-  if (!error) error = temporary.rename_to(file);
-  if (error)
-    throw InputError(file.string(), "output file", reason(error), "a file that can be written");
+  AtomicFile whole(file);
+  for (const std::string_view part : parts) whole.write(part);
+  whole.finish(flush);
+}
+
+AtomicFile::AtomicFile(fs::path file)
+    : file_(std::move(file)), temporary_(std::make_unique<TemporaryFile>(file_)) {}
+
+AtomicFile::~AtomicFile() = default;
+
+void AtomicFile::write(std::string_view part) { require_written(file_, temporary_->write(part)); }
+
+void AtomicFile::finish(Flush flush) {
+  if (flush == Flush::Yes) require_written(file_, temporary_->flush());
+  require_written(file_, temporary_->rename_to(file_));
 }
 
 void remove_earlier_files(std::span<const fs::path> files) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,6 +28,24 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view c
 // The same of a content in parts, one after the other.
 void write_parts_atomically(const std::filesystem::path& file,
                             std::initializer_list<std::string_view> parts, Flush flush);
+
+class TemporaryFile;  // files.cpp
+
+// The same of a content that is made part by part and does not fit into memory. A file that is not
+// finished leaves nothing behind.
+class AtomicFile {
+ public:
+  explicit AtomicFile(std::filesystem::path file);
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  ~AtomicFile();
+  void write(std::string_view part);
+  void finish(Flush flush = Flush::Yes);
+
+ private:
+  std::filesystem::path file_;
+  std::unique_ptr<TemporaryFile> temporary_;
+};
 
 // Removes the results of an earlier run, so that nobody mistakes them for those of the next run.
 // Missing files are ignored. InputError naming the file that cannot be removed.

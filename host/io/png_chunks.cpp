@@ -85,4 +85,14 @@ std::string needed_png_chunks(const std::string& bytes, const std::string& sourc
   return needed;
 }
 
+std::string png_chunk(const std::string& name, const std::string& content) {
+  const auto big_endian = [](std::size_t number) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift & 0xff);
+    return bytes;
+  };
+  const std::string named = name + content;
+  return big_endian(content.size()) + named + big_endian(checksum.of(named));
+}
+
 }  // namespace edgescout

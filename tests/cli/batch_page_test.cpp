@@ -1,9 +1,14 @@
-// report.html: what failed comes first, text cannot break the page, and long lists are cut openly.
+// report.html: what failed comes first, text cannot break the page, long lists are cut openly, and
+// the pictures are in it.
 #include "host/cli/batch_page.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+
+#include "host/cli/page_parts.h"
+#include "host/io/thumbnail.h"
+#include "tests/io/temporary_folder.h"
 
 namespace edgescout::test {
 namespace {
@@ -26,6 +31,13 @@ ImageResult result_with(const std::vector<double>& probabilities) {
     found.probability = probability;
   }
   return result;
+}
+
+std::string batch_page(const BatchTables& tables, const BatchSummary& summary,
+                       const std::string& device, const PagePictures& pictures = {}) {
+  std::string page;
+  write_batch_page(tables, summary, device, pictures, [&](std::string_view part) { page += part; });
+  return page;
 }
 
 // What the script of the page reads.
@@ -83,6 +95,43 @@ TEST(BatchPage, TextCannotBreakIt) {
             "</script><script>alert(1)</script>\"'&\xef\xbf\xbd");
   for (const char* network : {"http:", "https:", "src='//", "@import"})
     EXPECT_EQ(page.find(network), std::string::npos) << network;
+}
+
+std::string picture(std::size_t number, const std::filesystem::path& overlay) {
+  return "<script type='text/plain' id=picture" + std::to_string(number) + ">" +
+         base64(thumbnail_in(overlay).value()) + "</script>";
+}
+
+TEST(BatchPage, HoldsThePicturesOfItsImages) {
+  const TemporaryFolder folder;
+  BatchTables tables(false);
+  const auto overlay = [&](const std::string& name, std::uint8_t grey) {
+    const std::filesystem::path file = folder.path() / (name + "_overlay.png");
+    std::filesystem::create_directories(file.parent_path());
+    save_png_with_thumbnail({32, 24, std::vector<std::uint8_t>(32 * 24 * 3, grey)}, file);
+    return file;
+  };
+  const std::filesystem::path a = overlay("out/a", 10), b = overlay("shard 2/b", 200);
+  tables.add(input_named("a"), result_with({0.9}));
+  tables.add(input_named("none"), result_with({0.9}));
+  tables.add(input_named("b"), result_with({0.9}), "../shard 2");
+  tables.add_failed(input_named("bad"), "no image");
+  const std::string page = batch_page(tables, {}, "cpu", {folder.path() / "out", 2});
+  EXPECT_NE(page.find(picture(1, a)), std::string::npos) << "number 0 failed";
+  EXPECT_NE(page.find(picture(3, b)), std::string::npos);
+  EXPECT_EQ(page.find("id=picture2"), std::string::npos);
+  EXPECT_EQ(page.find("--thumbnails"), std::string::npos) << "all pictures are there";
+  std::string overlays;
+  const nlohmann::json data = data_of(page);
+  for (const auto& image : data.at("images")) overlays += image.at(7).dump();
+  EXPECT_EQ(overlays, "0101");
+
+  const std::string cut = batch_page(tables, {}, "cpu", {folder.path() / "out", 1});
+  EXPECT_NE(cut.find("id=picture1"), std::string::npos);
+  EXPECT_EQ(cut.find("id=picture3"), std::string::npos);
+  EXPECT_NE(cut.find("1 of 2 pictures are in this page (--thumbnails)"), std::string::npos);
+  EXPECT_EQ(batch_page(tables, {}, "cpu", {folder.path() / "out", 0}).find("id=picture"),
+            std::string::npos);
 }
 
 TEST(BatchPage, SaysWhereItListsNotAll) {

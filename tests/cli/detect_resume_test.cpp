@@ -45,10 +45,13 @@ TEST(DetectResume, DoesOnlyWhatIsMissing) {
   fs::remove(t.json(1));
   t.folder.write("out/c.json", "{\"edgescout_result\": 1");  // cut short
   const auto before = times_in(t.out, ".json").at(t.json(0));
+  const auto pictures = pictures_in(t.out);
+  EXPECT_EQ(pictures.size(), 3u);
   const Outcome outcome = run_program(t.arguments({"--resume"}));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(t.summary().at("done"), 2);
   EXPECT_EQ(t.summary().at("skipped"), 1);
+  EXPECT_EQ(pictures_in(t.out), pictures) << "of the image skipped as well";
   EXPECT_EQ(times_in(t.out, ".json").at(t.json(0)), before);
   EXPECT_EQ(load_image_result(t.json(2)).image.filename(), "c.png");
   EXPECT_EQ(load_bop_results(t.out / "results.csv").size(), rows);
@@ -70,6 +73,7 @@ TEST(DetectResume, LeavesNoResultsOfAnEarlierRun) {
   t.folder.write("out/notes.json", "{}");
   t.folder.write("images/b.png", "no image");
   ASSERT_EQ(run_program(t.arguments({"--no-overlays"})).exit_code, 1);
+  EXPECT_TRUE(pictures_in(t.out).empty());
   EXPECT_TRUE(fs::exists(t.json(0)));
   EXPECT_TRUE(fs::exists(t.out / "notes.json")) << "no result";
   EXPECT_FALSE(fs::exists(t.json(1))) << "it failed now";

@@ -132,6 +132,8 @@ TEST(Merge, JoinsShardsToWhatOneRunWrites) {
   EXPECT_GT(load_bop_results(t.at("one/results.csv")).size(), 0u);
   EXPECT_EQ(without_times(t.at("merged/results.csv")), without_times(t.at("one/results.csv")));
   EXPECT_EQ(summary_without_times(t.at("merged")), summary_without_times(t.at("one")));
+  EXPECT_EQ(pictures_in(t.at("merged")).size(), 2u);
+  EXPECT_EQ(pictures_in(t.at("merged")), pictures_in(t.at("one")));
   const std::string page = content_of(t.at("merged/report.html"));
   EXPECT_NE(page.find("\"../s1\""), std::string::npos) << "where the overlays lie";
 }

@@ -60,6 +60,18 @@ struct SmallScene {
   }
 };
 
+// The pictures in a folder's report.html, in base64.
+inline std::vector<std::string> pictures_in(const fs::path& out) {
+  const std::string page = content_of(out / "report.html"), before = "id=picture";
+  std::vector<std::string> pictures;
+  for (std::size_t at = 0; (at = page.find(before, at)) != std::string::npos;) {
+    const std::size_t start = page.find('>', at) + 1;
+    pictures.push_back(page.substr(start, page.find('<', start) - start));
+    at = start;
+  }
+  return pictures;
+}
+
 // The part and the templates that detections of it are made with.
 inline std::vector<std::string> few_templates() {
   return {"--viewpoints",   "3",    "--in-plane-steps", "12",

@@ -39,6 +39,26 @@ TEST(WriteFileAtomically, WritesAndReplacesAndLeavesNothingElse) {
   EXPECT_EQ(folder.entries(), 1u);
 }
 
+TEST(AtomicFile, IsTheWholeFileOrNone) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("report.html", "old");
+  {
+    AtomicFile whole(file);
+    whole.write("new, ");
+    whole.write("but not finished");
+    EXPECT_EQ(content_of(file), "old");
+  }
+  EXPECT_EQ(content_of(file), "old");
+  EXPECT_EQ(folder.entries(), 1u);
+  AtomicFile whole(file);
+  for (const char* part : {"new, ", "", "finished"}) whole.write(part);
+  whole.finish();
+  EXPECT_EQ(content_of(file), "new, finished");
+  EXPECT_EQ(folder.entries(), 1u);
+  AtomicFile nowhere(folder.path() / "no" / "r.html");
+  expect_input_error([&] { nowhere.write("x"); }, {"r.html", "No such file"});
+}
+
 // In a container every run has the same process id, and counts its files from 0.
 TEST(WriteFileAtomically, PassesOverWhatAKilledRunLeft) {
   const TemporaryFolder folder;
