@@ -37,7 +37,7 @@ std::vector<ObjectPose> merge_candidates(std::span<const ObjectView> views, int 
 
 std::vector<Detection> join_views(const Scene& scene, std::span<const TemplateSet> sets,
                                   const Grid<std::vector<PoseEstimate>>& candidates,
-                                  const DetectOptions& options) {
+                                  const DetectOptions& options, SelectionTrace* trace) {
   const std::size_t most = MOST_VIEWS * std::size_t(options.candidates);
   std::vector<ObjectPose> starts;
   for (std::size_t object = 0; object < sets.size(); ++object) {
@@ -45,7 +45,8 @@ std::vector<Detection> join_views(const Scene& scene, std::span<const TemplateSe
         merge_candidates(scene.views, int(object), sets[object], candidates, most);
     starts.insert(starts.end(), merged.begin(), merged.end());
   }
-  return select_detections(scene, sets, refine_poses(scene, starts, options.refine), options);
+  return select_detections(scene, sets, refine_poses(scene, starts, options.refine), options,
+                           trace);
 }
 
 }  // namespace edgescout

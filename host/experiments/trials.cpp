@@ -33,7 +33,9 @@ double seconds_now(const Backend& backend) {
 }
 
 Registrar prepare_edgescout(const Scene& scene) {
-  return [scene](std::span<const ObjectPose> starts) { return refine_poses(scene, starts, {}); };
+  return [scene, options = RefineOptions{}](std::span<const ObjectPose> starts) {
+    return refine_poses(scene, starts, options);
+  };
 }
 
 TensorOptions tensor_of(const Trial& trial, const ExperimentSettings& settings) {

@@ -15,8 +15,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double metres_per_mm = 1e-3;
-
 int scene_number(const fs::path& folder) {
   const fs::path whole = fs::absolute(folder).lexically_normal();  // resolves "."
   const std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
@@ -47,7 +45,7 @@ std::map<int, BopImage> read_images(const fs::path& folder, const std::string& c
     validate(checked, entry.source + ": " + entry.path);
     if (entry.has("cam_R_w2c"))
       image.camera_from_world =
-          pose_from(entry.at("cam_R_w2c"), entry.at("cam_t_w2c"), metres_per_mm, projected);
+          pose_from(entry.at("cam_R_w2c"), entry.at("cam_t_w2c"), METRES_PER_MM, projected);
     images[image.image_id] = image;
   }
   warn_of_projected(projected, file.string());
@@ -64,7 +62,7 @@ void read_truth(const fs::path& file, std::map<int, std::vector<BopTruth>>& trut
     for (const JsonField& entry : image.elements())
       objects.push_back(
           {entry.at("obj_id").integer(),
-           pose_from(entry.at("cam_R_m2c"), entry.at("cam_t_m2c"), metres_per_mm, projected), 1.0});
+           pose_from(entry.at("cam_R_m2c"), entry.at("cam_t_m2c"), METRES_PER_MM, projected), 1.0});
   }
   warn_of_projected(projected, file.string());
 }
@@ -108,7 +106,7 @@ json camera_entry(const BopImage& image) {
   if (c.has_distortion()) entry["dist"] = c.distortion;
   if (image.camera_from_world) {
     entry["cam_R_w2c"] = rotation_numbers(*image.camera_from_world);
-    entry["cam_t_w2c"] = translation_numbers(*image.camera_from_world, metres_per_mm);
+    entry["cam_t_w2c"] = translation_numbers(*image.camera_from_world, METRES_PER_MM);
   }
   return entry;
 }
@@ -143,7 +141,7 @@ void save_bop_scene(const BopScene& scene, const fs::path& folder) {
       image_poses.push_back(
           {{"obj_id", object.object_id},
            {"cam_R_m2c", rotation_numbers(object.camera_from_object)},
-           {"cam_t_m2c", translation_numbers(object.camera_from_object, metres_per_mm)}});
+           {"cam_t_m2c", translation_numbers(object.camera_from_object, METRES_PER_MM)}});
       image_infos.push_back({{"visib_fract", object.visible_fraction}});
     }
   }

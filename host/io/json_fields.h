@@ -44,6 +44,8 @@ struct NumberedField {
 // is no whole number, or two are the same one.
 std::vector<NumberedField> numbered_fields(const JsonField& parent);
 
+inline constexpr double METRES_PER_MM = 1e-3;  // BOP files have mm
+
 // R: 9 numbers by row, or 3 rows. t: 3 numbers in units of `metres_per_unit`. Counts rotations that
 // had to be projected (rotations.h). InputError: R is no rotation.
 Se3 pose_from(const JsonField& rotation, const JsonField& translation, double metres_per_unit,

@@ -35,7 +35,7 @@ class Checksum {
   std::array<std::uint32_t, 256> table_{};
 };
 
-constexpr Checksum checksum;
+constexpr Checksum chunk_checksum;
 
 struct Chunk {
   std::string_view name, all;  // with its length and its checksum
@@ -55,7 +55,7 @@ Chunk chunk_at(std::string_view bytes, std::size_t at, const std::string& source
   if (at + frame + length > bytes.size())
     throw InputError(source, "image", "a file cut short", whole_png);
   const Chunk chunk{bytes.substr(at + 4, 4), bytes.substr(at, frame + length)};
-  if (checksum.of(bytes.substr(at + 4, 4 + length)) != numbers.at(at + 8 + length, 4))
+  if (chunk_checksum.of(bytes.substr(at + 4, 4 + length)) != numbers.at(at + 8 + length, 4))
     throw InputError(source, "image", "damaged bytes in the chunk " + shown(chunk.name), whole_png);
   return chunk;
 }
@@ -92,7 +92,7 @@ std::string png_chunk(const std::string& name, const std::string& content) {
     return bytes;
   };
   const std::string named = name + content;
-  return big_endian(content.size()) + named + big_endian(checksum.of(named));
+  return big_endian(content.size()) + named + big_endian(chunk_checksum.of(named));
 }
 
 }  // namespace edgescout

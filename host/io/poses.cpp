@@ -49,7 +49,6 @@ StartPose from_entry(const JsonField& entry, ProjectedRotations& projected) {
 
 // BOP's scene_gt.json: lists of objects by the number of the image, in mm.
 std::vector<StartPose> from_bop_truth(const JsonField& root, ProjectedRotations& projected) {
-  constexpr double metres_per_mm = 1e-3;
   std::vector<StartPose> poses;
   for (const auto& [image_id, objects] : numbered_fields(root))
     for (const JsonField& entry : objects.elements()) {
@@ -57,7 +56,7 @@ std::vector<StartPose> from_bop_truth(const JsonField& root, ProjectedRotations&
       pose.image_id = image_id;
       pose.object_id = entry.at("obj_id").integer();
       pose.camera_from_object =
-          pose_from(entry.at("cam_R_m2c"), entry.at("cam_t_m2c"), metres_per_mm, projected);
+          pose_from(entry.at("cam_R_m2c"), entry.at("cam_t_m2c"), METRES_PER_MM, projected);
     }
   return poses;
 }
