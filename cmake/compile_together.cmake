@@ -15,5 +15,7 @@ function(compile_together target)
     set_target_properties(${target} PROPERTIES
       UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${edgescout_sources_together})
     set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    # A local name may be that of another file's constant. The preset dev warns of the rest.
+    target_compile_options(${target} PRIVATE -Wno-shadow)
   endif()
 endfunction()
