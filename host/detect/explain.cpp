@@ -203,8 +203,11 @@ class LostPose {
     for (std::size_t i = 0; i < selected.size(); ++i)
       if (given_.of_bounds(selected[i]) >= 1)
         others.push_back(selected[i]);
-      else if (!selection.selected)
+      else if (!selection.selected) {
         selection.selected = given_.found(selected[i]), selection.rank = i + 1;
+        // What it shares with its alternatives is not in the estimate.
+        selection.selected->probability = stages_.selection.selected[i].probability;
+      }
     selection.claimed = claimed_fraction(scene_, pose, others, options_.edge_claims);
     selection.is_reported =
         selection.selected && selection.rank <= std::size_t(options_.max_detections);

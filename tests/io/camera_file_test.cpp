@@ -95,7 +95,7 @@ TEST(LoadCamera, ReadsASceneCameraWhoseImagesAgree) {
 
 TEST(LoadCamera, NamesFileAndFieldOfWhatIsMissing) {
   expect_input_error([] { load(replaced(ros, "camera_matrix", "numbers")); },
-                     {"camera.yaml", "camera_matrix", "nothing"});
+                     {"camera.yaml", "camera_matrix", "the distortion alone"});
   expect_input_error([] { load(replaced(ros, "image_height: 480", "")); },
                      {"camera.yaml", "image_height", "nothing"});
   expect_input_error([] { load(replaced(ros, "distortion_coefficients", "numbers")); },
