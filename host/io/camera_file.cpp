@@ -22,9 +22,9 @@ std::string size_of(int width, int height) {
 
 // Programs also write focal lengths in parts of the image's width, or in mm.
 void require_focal_px(const Camera& camera, const std::string& source) {
-  constexpr double least_of_side = 0.02;  // an ideal image of 175 degrees
+  constexpr double least_of_side = 0.02;  // of the shorter one: it would show 175 degrees
   const double longest_px = std::max(camera.fx, camera.fy);
-  if (longest_px < least_of_side * std::max(camera.width, camera.height))
+  if (longest_px < least_of_side * std::min(camera.width, camera.height))
     throw InputError(source, "fx, fy",
                      std::to_string(camera.fx) + " and " + std::to_string(camera.fy) +
                          " px in an image of " + size_of(camera.width, camera.height),
