@@ -238,18 +238,19 @@ TEST(BopResults, ReadsWhatOtherToolsWrite) {
 TEST(BopResults, ReadsColumnsByTheirNames) {
   const TemporaryFolder folder;
   const std::string pose = "0 -1 0 1 0 0 0 0 1", header = "scene_id,im_id,obj_id,score,R,t,time\n";
-  for (const std::string& text : std::vector<std::string>{
-           header + "1,2,3,0.5," + pose + ",10 20 30,0.1\n",
-           "obj_id,score,t,im_id,R,scene_id\n3,0.5,10 20 30,2," + pose + ",1\n",
-           "scene_id,image_id,obj_id,score,R,t,time,iou\n1,2,3,0.5," + pose + ",10 20 30,-1,0.7\n",
-           "," + header + "0,1,2,3,0.5," + pose + ",10 20 30,0.1\n",
-           "# by x\nScene_ID;Im_ID;Obj_ID;Score;R;T;Time\n1;2;3;0.5;" + pose + ";10 20 30;\n",
-           "1\t2\t3\t0.5\t" + pose + "\t10 20 30\t0.1\n",
-           R"("scene_id","im_id","obj_id","score","R","t","time"
+  const std::string files[] = {
+      header + "1,2,3,0.5," + pose + ",10 20 30,0.1\n",
+      "obj_id,score,t,im_id,R,scene_id\n3,0.5,10 20 30,2," + pose + ",1\n",
+      "scene_id,image_id,obj_id,score,R,t,time,iou\n1,2,3,0.5," + pose + ",10 20 30,-1,0.7\n",
+      "," + header + "0,1,2,3,0.5," + pose + ",10 20 30,0.1\n",
+      "# by x\nScene_ID;Im_ID;Obj_ID;Score;R;T;Time\n1;2;3;0.5;" + pose + ";10 20 30;\n",
+      "1\t2\t3\t0.5\t" + pose + "\t10 20 30\t0.1\n",
+      R"("scene_id","im_id","obj_id","score","R","t","time"
 "1","2","3","0.5","[0, -1, 0, 1, 0, 0, 0, 0, 1]","[10, 20, 30]","1"
 )",
-           header + "1,2,3,0.5,[" + pose + "],[10. 20. 30.],0.1,\n",
-           "scene_id,im_id,obj_id,score,R,t,time\r1,2,3,0.5," + pose + ",10 20 30,0.1\r"}) {
+      header + "1,2,3,0.5,[" + pose + "],[10. 20. 30.],0.1,\n",
+      "scene_id,im_id,obj_id,score,R,t,time\r1,2,3,0.5," + pose + ",10 20 30,0.1\r"};
+  for (const std::string& text : files) {
     const std::vector<BopResult> results = load_bop_results(folder.write("r.csv", text));
     ASSERT_EQ(results.size(), 1u) << text;
     EXPECT_EQ(results[0].scene_id, 1) << text;
@@ -273,6 +274,9 @@ TEST(BopResults, ReadsColumnsByTheirNames) {
 TEST(BopResults, LeaveOutRowsWithoutPose) {
   const TemporaryFolder folder;
   const std::string good = "1,2,3,0.5,1 0 0 0 1 0 0 0 1,1 2 3,0.1\n";
+  const auto twice_among_good = [&](const std::string& row) {
+    return good + row + "\n" + row + "\n" + good;
+  };
   for (const std::string row :
        {"1,2,3,0.1,nan nan nan nan nan nan nan nan nan,nan nan nan,-1",
         "1,2,3,0.1,0 0 0 0 0 0 0 0 0,0 0 0,-1", "1,2,3,0.1,1 0 0 0 1 0 0 0,1 2 3,0.1",
@@ -280,7 +284,7 @@ TEST(BopResults, LeaveOutRowsWithoutPose) {
         "1,2,3,0.1,1 0 0 0 1 0 0 0 -1,1 2 3,0.1", "1,2,3,nan,1 0 0 0 1 0 0 0 1,1 2 3,0.1",
         "1,2,3,0.1,,,0.1", "1,2,3,0.1,1 0 0"}) {
     CollectedLog log;
-    const auto file = folder.write("r.csv", good + row + "\n" + row + "\n" + good);
+    const auto file = folder.write("r.csv", twice_among_good(row));
     const BopResultRows rows = load_bop_result_rows(file);
     EXPECT_EQ(rows.results.size(), 2u) << row;
     EXPECT_EQ(rows.rows_without_pose, 2) << row;
