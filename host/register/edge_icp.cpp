@@ -149,7 +149,7 @@ class PoseIcp {
     estimate.explained = share(sum.weight(), in_image);
     estimate.covariance = common_to_edges(estimate.explained) * sum.covariance();
     const LineSystem depth = depth_system_at(estimate.world_from_object);
-    if (depth.weight > 0) add_depth_information(estimate.covariance, depth.hessian, depth.weight);
+    add_depth_information(estimate.covariance, depth.hessian, depth.weight);
   }
 
  private:
