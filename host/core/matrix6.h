@@ -4,9 +4,9 @@
 // takes seconds longer to compile.
 #pragma once
 
-#include "host/core/se3.h"
-
 #include <optional>
+
+#include "host/core/se3.h"
 
 namespace edgescout {
 
