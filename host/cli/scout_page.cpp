@@ -58,8 +58,7 @@ class Page {
            "<dt>ψ<dd>Agreement of the image's gradients with the model's edges, 0 to 1; about 0.64 "
            "by chance."
            "<dt>rings<dd>Elevation of the views, degrees; the middle is straight above. A number "
-           "in "
-           "a black dot is the image taken there."
+           "in a black dot is the image taken there."
            "<dt>particle<dd>A sampled pose: a dot with the object's x and y axes, in a colour for "
            "each model; opaque: heavy. Sampled anew (resampled) where few carry the weight; the "
            "effective sample size says how many do."
@@ -71,8 +70,7 @@ class Page {
            "The pictures show the likeliest and the unlikeliest of those that were sampled for "
            "the decision."
            "<dt>entropy<dd>How undecided the belief is, nats: a sum over all places where an "
-           "object "
-           "may be, most of which are not reported. 0: each is certainly an object or none."
+           "object may be, most of which are not reported. 0: each is certainly an object or none."
            "</dl></section>";
   }
 
