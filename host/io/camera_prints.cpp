@@ -49,7 +49,7 @@ void add_cell(json& camera, std::string name, const std::string& cell, const std
   name.erase(0, of_rostopic.size());
   const std::size_t end = name.find_last_not_of("0123456789") + 1;
   if (end == name.size()) return add_field(camera, name, scalar_of(cell), source);
-  camera[name.substr(0, end)].push_back(scalar_of(cell));
+  add_to_list(camera, name.substr(0, end), scalar_of(cell), source);
 }
 
 // Names in the first line, a camera in every other one.

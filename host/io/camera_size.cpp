@@ -1,6 +1,7 @@
 // The image that a calibration is for: its size, region of interest and binning.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/io/camera_reader.h"
 #include "kernels/error.h"
@@ -36,8 +37,10 @@ std::vector<double> without_channels(std::vector<double> sides) {
 // decides, and for a square image it does not matter.
 void set_listed_size(Camera& camera, const JsonField& field, bool height_first) {
   const std::vector<double> sides = without_channels(two_sides(field));
-  if (sides.size() != 2 || sides[0] < 0 || sides[1] < 0 || sides[0] != std::floor(sides[0]) ||
-      sides[1] != std::floor(sides[1]))
+  const auto is_side = [](double side) {
+    return side >= 0 && side <= std::numeric_limits<int>::max() && side == std::floor(side);
+  };
+  if (sides.size() != 2 || !std::ranges::all_of(sides, is_side))
     field.fail(field.value.dump().substr(0, 60), "width and height in px");
   const auto off_centre = [&](double width, double height) {
     return std::abs(camera.cx / width - 0.5) + std::abs(camera.cy / height - 0.5);

@@ -87,7 +87,7 @@ json ost_cameras(const std::vector<std::string>& lines, const std::string& sourc
       continue;
     }
     if (name.empty()) throw InputError(source, "ost.txt", line, "the name of a field before it");
-    for (const json& number : numbers) cameras.back()[name].push_back(number);
+    for (const json& number : numbers) add_to_list(cameras.back(), name, number, source);
   }
   for (json& camera : cameras)
     for (const char* side : {"width", "height"})

@@ -92,6 +92,13 @@ void add_field(json& object, const std::string& name, json value, const std::str
   object[name] = std::move(value);
 }
 
+void add_to_list(json& object, const std::string& name, json value, const std::string& source) {
+  json& list = object[name];
+  if (!list.is_null() && !list.is_array())
+    throw InputError(source, name, "a value alone and numbers of a list", "one of them");
+  list.push_back(std::move(value));
+}
+
 json parse_camera_tree(const std::string& bytes, const std::string& source, bool is_json) {
   const std::string text = without_ros_prints(plain_text(bytes, source));
   const std::size_t start = text.find_first_not_of(" \t\n");

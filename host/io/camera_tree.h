@@ -49,5 +49,8 @@ nlohmann::json value_in(const std::string& text);
 // Adds a field. InputError: the object has one of that name.
 void add_field(nlohmann::json& object, const std::string& name, nlohmann::json value,
                const std::string& source);
+// Adds to the list of that name. InputError: the object has one of that name that is no list.
+void add_to_list(nlohmann::json& object, const std::string& name, nlohmann::json value,
+                 const std::string& source);
 
 }  // namespace edgescout

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "host/io/mesh.h"
+#include "host/io/one_line.h"
 #include "host/model/template_parts.h"
 #include "kernels/error.h"
 
@@ -124,14 +125,15 @@ void save_templates(const TemplateSet& set, const std::filesystem::path& file) {
   write_binary_file(file, format, payload_of(set));
 }
 
-// What is wrong with a value in it is said without the file.
+// What is wrong with a value in it is said without the file, and with the mesh's name as it stands
+// there.
 TemplateSet load_templates(const std::filesystem::path& file) {
   try {
     return set_from(BinaryReader(file, format));
   } catch (const InputError& error) {
     const std::string message = error.what();
     if (message.starts_with(file.string())) throw;
-    throw InputError(file.string() + ": " + message);
+    throw InputError(file.string() + ": " + one_line(message));
   }
 }
 

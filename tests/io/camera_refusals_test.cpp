@@ -5,6 +5,26 @@
 namespace edgescout::test {
 namespace {
 
+// Each was found by the fuzzer.
+TEST(CameraFormats, RefusesNumbersThatNoFieldHolds) {
+  expect_input_error(
+      [] {
+        load_one("camera.json", R"({"ImageSize": [480, 6.5e65], "RadialDistortion": [-0.25, 0.12],
+            "FocalLength": [700, 701], "PrincipalPoint": [322, 239], "Skew": 0})");
+      },
+      {"camera.json", "ImageSize", "6.5e+65", "width and height"});
+  expect_input_error(
+      [] {
+        load_one("camera.csv", "%time,field.height,field.width,field.K,field.K1\n1,480,640,700,0\n");
+      },
+      {"camera.csv", "K", "a value alone"});
+  expect_input_error(
+      [] {
+        load_one("ost.txt", "[image]\n\nname\n640\n\n[head]\n\n3\n\ncamera matrix\n700 0 321\n");
+      },
+      {"ost.txt", "name", "a value alone"});
+}
+
 // What a file says of the lens or of a part of the image is read or refused.
 TEST(CameraFormats, RefusesWhatItDoesNotUnderstand) {
   const std::string head =
