@@ -15,7 +15,8 @@ TEST(CameraFormats, RefusesNumbersThatNoFieldHolds) {
       {"camera.json", "ImageSize", "6.5e+65", "width and height"});
   expect_input_error(
       [] {
-        load_one("camera.csv", "%time,field.height,field.width,field.K,field.K1\n1,480,640,700,0\n");
+        load_one("camera.csv",
+                 "%time,field.height,field.width,field.K,field.K1\n1,480,640,700,0\n");
       },
       {"camera.csv", "K", "a value alone"});
   expect_input_error(
