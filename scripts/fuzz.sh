@@ -61,39 +61,27 @@ lines = json.load(sys.stdin)["data"][0]["totals"]["lines"]
 print("{covered} of {count} ({percent:.0f} %)".format(**lines))'
 }
 
-# fuzz_for READER SECONDS: appends to the reader's log, ends with the first failure. What the
-# processor spent on other programs does not count: libFuzzer counts time on the wall, so it goes on
-# for what is missing.
-fuzz_for() {
-  local reader=$1 seconds=$2 work log=$scratch/slice.log used=0 TIMEFORMAT='%U %S'
-  work=$(work_of "$reader")
-  : >"$work.log"
-  while [ "$used" -lt "$seconds" ]; do
-    { time fuzz "$reader" -max_total_time="$((seconds - used))" -timeout=120 -max_len=8192 \
-      -print_final_stats=1 -dict="tests/fuzz/dictionaries/$reader.dict" \
-      -artifact_prefix="build/fuzz/found/$reader-" "$work" "tests/fuzz/corpus/$reader" \
-      >"$log" 2>&1 || touch "$scratch/failed"; } 2>"$scratch/time"
-    cat "$log" >>"$work.log"
-    used=$(awk -v used="$used" '{ print int(used + $1 + $2 + 0.5) }' "$scratch/time")
-    if [ -e "$scratch/failed" ]; then break; fi
-  done
-  echo "$used" >"$scratch/used"
-}
-
+# What the processor spent on other programs does not count: libFuzzer counts time on the wall, so it
+# goes on for what is missing, until the first failure.
 run_reader() {
-  local reader=$1 work log found=no
+  local reader=$1 seconds=$2 work log found=no used=0 TIMEFORMAT='%U %S'
   work=$(work_of "$reader")
   log=$work.log
   mkdir -p build/fuzz/found
-  rm -f "$scratch/failed"
-  fuzz_for "$reader" "$2"
-  if [ -e "$scratch/failed" ]; then
-    found=yes
+  : >"$log"
+  while [ "$used" -lt "$seconds" ] && [ $found = no ]; do
+    { time fuzz "$reader" -max_total_time="$((seconds - used))" -timeout=120 -max_len=8192 \
+      -print_final_stats=1 -dict="tests/fuzz/dictionaries/$reader.dict" \
+      -artifact_prefix="build/fuzz/found/$reader-" "$work" "tests/fuzz/corpus/$reader" \
+      >>"$log" 2>&1 || found=yes; } 2>"$scratch/time"
+    used=$(awk -v used="$used" '{ print int(used + $1 + $2 + 0.5) }' "$scratch/time")
+  done
+  if [ $found = yes ]; then
     failed=1
     grep -E 'ERROR|SUMMARY|what\(\)|runtime error|artifact' "$log" >&2
   fi
   printf '| %s | %s | %s | %s | %s | %s | %s files, %s KiB | %s |\n' "$(date -u +%F)" \
-    "$(git rev-parse --short=12 HEAD)" "$reader" "$(cat "$scratch/used")" \
+    "$(git rev-parse --short=12 HEAD)" "$reader" "$used" \
     "$(awk '/^stat::number_of_executed_units/ { sum += $2 } END { print sum }' "$log")" \
     "$(lines_of "$reader")" "$(find "$work" -type f | wc -l)" "$(du -sk "$work" | cut -f 1)" "$found"
 }
