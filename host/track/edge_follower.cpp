@@ -13,6 +13,9 @@ namespace {
 
 constexpr double near_reach_px = 4;
 constexpr int most_surface_samples = 200;
+// Of a pose from its start. Edges that come before the object turn its pose further: a bar did so
+// by 0.3 to 0.9 rad, where 815 right poses of three rendered parts were turned by 0.24 rad at most.
+constexpr double most_turn_rad = 0.25;
 
 // Whether the object turned so far, seen from the camera, that other edges may be visible.
 bool has_turned(const Se3& from, const Se3& to) {
@@ -103,17 +106,20 @@ NormalFit EdgeFollower::measure(const SearchedImage& image, const Se3& camera_fr
 FollowedPose EdgeFollower::follow(const SearchedImage& image, std::span<const Se3> starts,
                                   const SeenObject* earlier) const {
   FollowedPose best;
-  const auto is_tracked = [&](const Se3& start) {
-    const FollowedPose found = follow_near(image, start, earlier);
+  // `near` is the start or what was found from it.
+  const auto is_tracked = [&](const Se3& start, const Se3& near) {
+    FollowedPose found = follow_near(image, near, earlier);
+    if (angle_between_rad(start, found.camera_from_object) > most_turn_rad)
+      found = {start, measure(image, start, earlier)};
     if (best.fit.points == 0 || is_better(found.fit, best.fit)) best = found;
     return is_on_object(best.fit, options_);
   };
   for (const Se3& start : starts)
-    if (is_tracked(start)) return best;
+    if (is_tracked(start, start)) return best;
   const Image half = reduced(*image.image, 2);
   const SearchedImage coarse{&half, image.camera, image.ideal, 2, image.depth};
   for (const Se3& start : starts)
-    if (is_tracked(follow_far(coarse, start, earlier))) return best;
+    if (is_tracked(start, follow_far(coarse, start, earlier))) return best;
   return best;
 }
 

@@ -71,6 +71,34 @@ TEST_F(TrackerTest, StartsFromARoughPose) {
   EXPECT_LT(error(tracker.update(frame(1))[0], pose_at(1)), 0.03);
 }
 
+// The edges of something that comes before the part turn its pose as far in one frame. A part that
+// did turn so is registered, which judges the pose.
+TEST_F(TrackerTest, EdgesAloneDoNotTurnAPoseFurtherThanPartsTurn) {
+  const auto turned_by = [&](double angle_rad, bool registers) {
+    TrackOptions options;
+    options.register_doubtful = registers;
+    Tracker tracker(sets, camera, *backend, options);
+    tracker.add(0, pose_at(0));
+    for (int f = 0; f < 4; ++f) tracker.update(frame(f));
+    const Se3 turned{so3_exp({0, 0, angle_rad}) * pose_at(4).rotation, pose_at(4).translation_m};
+    const Track track = tracker.update({std::make_shared<const Image>(flat_of(turned)), 0.4})[0];
+    return std::pair(track.state, angle_between_rad(track.world_from_object, pose_at(4)));
+  };
+  for (const bool registers : {false, true}) {
+    const auto [state, angle_rad] = turned_by(0.15, registers);
+    EXPECT_EQ(state, TrackState::Tracked);
+    EXPECT_NEAR(angle_rad, 0.15, 0.02);
+  }
+  for (const double far_rad : {0.28, 0.4}) {
+    const auto [state, angle_rad] = turned_by(far_rad, false);
+    EXPECT_EQ(state, TrackState::Doubtful) << far_rad;
+    EXPECT_LT(angle_rad, 0.05) << far_rad;
+    const auto [state_registered, angle_registered_rad] = turned_by(far_rad, true);
+    EXPECT_EQ(state_registered, TrackState::Tracked) << far_rad;
+    EXPECT_NEAR(angle_registered_rad, far_rad, 0.02) << far_rad;
+  }
+}
+
 // In an image whose part is registered in a reduced crop.
 TEST_F(TrackerTest, BringsARegisteredPoseOntoTheEdgesOfALargeImage) {
   camera = scaled(camera, 3);
