@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <set>
 
 #include "host/io/camera_tree.h"
 #include "kernels/error.h"
@@ -169,6 +170,19 @@ bool is_distortion_name(std::string_view name) {
                           "dcoefs", "dcoef", "kc"}) ||
          contains_any_of(name, {"distort", "distcoef"}) || name.starts_with("dist") ||
          name.ends_with("dist");
+}
+
+std::string coefficient_name(std::string_view name) {
+  // What the SDK of Azure Kinect prints.
+  if (name == "tangentialdistortioncoefficientx") return "p1";
+  if (name == "tangentialdistortioncoefficienty") return "p2";
+  for (const std::string_view prefix :
+       {"camera", "cam", "distortion", "dist", "radial", "tangential", "prism", "lens"})
+    if (name.starts_with(prefix)) name.remove_prefix(prefix.size());
+  static const std::set<std::string, std::less<>> names{
+      "k1", "k2",  "k3",  "k4",   "k5",   "k6", "p1", "p2", "s1", "s2", "s3",
+      "s4", "sx1", "sy1", "taux", "tauy", "d0", "d1", "d2", "d3", "d4", "kud"};
+  return names.contains(name) ? std::string(name) : "";
 }
 
 CameraFields::CameraFields(const json& object, const std::string& source, const std::string& path,

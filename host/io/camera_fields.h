@@ -32,6 +32,8 @@ bool is_any_of(std::string_view name, std::initializer_list<std::string_view> na
 bool contains_any_of(std::string_view name, std::initializer_list<std::string_view> parts);
 bool is_matrix_name(std::string_view name);      // of the intrinsic matrix
 bool is_distortion_name(std::string_view name);  // of the list of coefficients
+// "k1", "k_1", "radial_k1" -> "k1". Empty: no coefficient.
+std::string coefficient_name(std::string_view name);
 
 // Whether a field of this plain name and value, which no reader took, changes where a point is seen
 // or what image the calibration is for: a lens, a region, binning, a turned image. Not if it is
