@@ -23,20 +23,6 @@ std::string camera_of_heading(const std::string& line) {
   return is_heading && is_camera ? name : "";
 }
 
-// numpy cuts a long list into lines.
-std::vector<std::string> with_whole_brackets(const std::vector<std::string>& lines) {
-  std::vector<std::string> whole;
-  std::ptrdiff_t open = 0;
-  for (const std::string& line : lines) {
-    if (open > 0)
-      whole.back() += " " + line;
-    else
-      whole.push_back(line);
-    open = std::ranges::count(whole.back(), '[') - std::ranges::count(whole.back(), ']');
-  }
-  return whole;
-}
-
 // "<class 'aslam_cv.libaslam_cv_python.DistortedPinholeRsCameraGeometry'>" -> "DistortedPinhole".
 std::string geometry_in(const std::string& type) {
   std::string name = type.substr(std::min(type.rfind('.') + 1, type.size()));
@@ -67,7 +53,8 @@ json kalibr_results(const std::vector<std::string>& lines, const std::string& so
   if (!lines.front().starts_with("Calibration results")) return nullptr;
   json cameras = json::object();
   std::string name;
-  for (const std::string& line : with_whole_brackets(lines)) {
+  // numpy cuts a long list into lines.
+  for (const std::string& line : with_whole_lists(lines, ':')) {
     if (const std::string heading = camera_of_heading(line); !heading.empty()) {
       name = heading;
     } else if (line.starts_with("baseline ") || line.starts_with("Target config") ||

@@ -117,28 +117,6 @@ json realsense_cameras(const std::vector<std::string>& lines, const std::string&
   return cameras.empty() ? json(nullptr) : cameras;
 }
 
-// Lists that go on over several lines become one line. Comments are left out; within brackets a
-// semicolon divides rows.
-std::vector<std::string> with_whole_lists(const std::vector<std::string>& lines) {
-  std::vector<std::string> whole;
-  int open_brackets = 0;
-  for (const std::string& line : lines) {
-    const bool goes_on = open_brackets > 0 && whole.back().find('=') != std::string::npos;
-    if (!goes_on) open_brackets = 0;
-    std::string text;
-    for (const char c : line) {
-      if (c == '#' || (c == ';' && open_brackets <= 0)) break;
-      open_brackets += c == '[' ? 1 : c == ']' ? -1 : 0;
-      text += c;
-    }
-    if (goes_on)
-      whole.back().append(1, ' ').append(trimmed(text));
-    else
-      whole.push_back(trimmed(text));
-  }
-  return whole;
-}
-
 // "np.array([[1, 2]], dtype=float)" -> "[[1, 2]]".
 std::string without_array(const std::string& value) {
   const std::size_t open = value.find('['), close = value.rfind(']');
@@ -151,7 +129,7 @@ std::string without_array(const std::string& value) {
 json ini_cameras(const std::vector<std::string>& lines, const std::string& source) {
   json root = json::object();
   json* section = &root;
-  for (const std::string& line : with_whole_lists(lines)) {
+  for (const std::string& line : with_whole_lists(lines, '=')) {
     if (line.empty() || line.starts_with("import ") || line.starts_with("from ")) continue;
     if (is_section(line)) {
       const std::string name = line.substr(1, line.size() - 2);

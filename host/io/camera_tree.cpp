@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "host/core/words.h"
 #include "host/io/json_fields.h"
 #include "kernels/error.h"
 
@@ -85,6 +86,26 @@ json value_in(const std::string& text) {
   const json numbers = numbers_in(text);
   if (numbers.is_null()) return scalar_of(text);
   return numbers.size() == 1 ? numbers[0] : numbers;
+}
+
+std::vector<std::string> with_whole_lists(const std::vector<std::string>& lines, char assigns) {
+  std::vector<std::string> whole;
+  int open_brackets = 0;
+  for (const std::string& line : lines) {
+    const bool goes_on = open_brackets > 0 && whole.back().find(assigns) != std::string::npos;
+    if (!goes_on) open_brackets = 0;
+    std::string text;
+    for (const char c : line) {
+      if (c == '#' || (c == ';' && open_brackets <= 0)) break;
+      open_brackets += c == '[' ? 1 : c == ']' ? -1 : 0;
+      text += c;
+    }
+    if (goes_on)
+      whole.back().append(1, ' ').append(trimmed(text));
+    else
+      whole.push_back(trimmed(text));
+  }
+  return whole;
 }
 
 void add_field(json& object, const std::string& name, json value, const std::string& source) {

@@ -45,6 +45,10 @@ nlohmann::json scalar_of(const std::string& word);
 nlohmann::json numbers_in(std::string_view text);
 // A number, a list of several, or as scalar_of.
 nlohmann::json value_in(const std::string& text);
+// Joins the lines of a list that goes on over several lines. Its first line has `assigns` between
+// name and list: '=' or ':'. Comments at the ends of lines are left out; within brackets a
+// semicolon divides rows.
+std::vector<std::string> with_whole_lists(const std::vector<std::string>& lines, char assigns);
 
 // Adds a field. InputError: the object has one of that name.
 void add_field(nlohmann::json& object, const std::string& name, nlohmann::json value,
