@@ -87,10 +87,32 @@ double weighted(std::span<const PoseFeatures> informative_views, const weights::
   return w.bias + w.log_probability * sum / double(informative_views.size());
 }
 
-std::vector<PoseFeatures> informative(std::span<const PoseFeatures> by_view) {
+// What the views of a pose say of it together.
+struct OverViews {
+  double rank = 0, probability = 0;
+  std::size_t informative_views = 0;
+};
+
+OverViews classify_over_views(std::span<const PoseFeatures> by_view) {
   std::vector<PoseFeatures> views;
   std::ranges::copy_if(by_view, std::back_inserter(views), is_informative);
-  return views;
+  if (views.size() > 1) {
+    const double log_odds = weighted(views, weights::SEVERAL_VIEWS);
+    return {log_odds, logistic(log_odds), views.size()};
+  }
+  const double p = views.empty() ? 0 : PoseClassifier::probability(views[0]);
+  const double rank =
+      by_view.size() == 1 ? PoseClassifier::rank(by_view[0]) : std::log(p / (1 - p));
+  return {rank, p, views.size()};
+}
+
+// `pooled` are the features of all views.
+bool has_psi_above_chance(const PoseFeatures& pooled, std::span<const PoseFeatures> by_view) {
+  constexpr double clear_z_score = 2;  // standard errors
+  return psi_z_score(pooled) > 0 ||
+         std::ranges::count_if(by_view, [](const PoseFeatures& features) {
+           return psi_z_score(features) > clear_z_score;
+         }) > 1;
 }
 
 }  // namespace
@@ -143,11 +165,7 @@ PoseFeatures pool_over_views(std::span<const PoseFeatures> by_view) {
 }
 
 bool has_psi_above_chance(std::span<const PoseFeatures> by_view) {
-  constexpr double clear_z_score = 2;  // standard errors
-  return psi_z_score(pool_over_views(by_view)) > 0 ||
-         std::ranges::count_if(by_view, [](const PoseFeatures& features) {
-           return psi_z_score(features) > clear_z_score;
-         }) > 1;
+  return has_psi_above_chance(pool_over_views(by_view), by_view);
 }
 
 double PoseClassifier::rank(const PoseFeatures& features) {
@@ -160,11 +178,7 @@ double PoseClassifier::log_odds(const PoseFeatures& features) {
 }
 
 double PoseClassifier::rank(std::span<const PoseFeatures> by_view) {
-  if (by_view.size() == 1) return rank(by_view[0]);
-  const std::vector<PoseFeatures> views = informative(by_view);
-  if (views.size() > 1) return weighted(views, weights::SEVERAL_VIEWS);
-  const double p = probability(by_view);
-  return std::log(p / (1 - p));
+  return classify_over_views(by_view).rank;
 }
 
 double PoseClassifier::probability(const PoseFeatures& features) {
@@ -173,10 +187,7 @@ double PoseClassifier::probability(const PoseFeatures& features) {
 }
 
 double PoseClassifier::probability(std::span<const PoseFeatures> by_view) {
-  const std::vector<PoseFeatures> views = informative(by_view);
-  if (views.empty()) return 0;
-  return views.size() == 1 ? probability(views[0])
-                           : logistic(weighted(views, weights::SEVERAL_VIEWS));
+  return classify_over_views(by_view).probability;
 }
 
 void classify(PoseEstimate& estimate) {
@@ -184,15 +195,16 @@ void classify(PoseEstimate& estimate) {
   const std::vector<PoseFeatures>& by_view = estimate.features;
   if (by_view.empty()) return;
   const PoseFeatures pooled = pool_over_views(by_view);
-  estimate.classification = {pooled,
-                             PoseClassifier::rank(by_view),
-                             PoseClassifier::rank(pooled),
-                             PoseClassifier::log_odds(pooled),
-                             PoseClassifier::probability(by_view),
-                             psi_z_score(pooled),
-                             unexplained_grey(pooled.shading),
-                             int(std::ranges::count_if(by_view, is_informative)),
-                             has_psi_above_chance(by_view)};
+  const OverViews over_views = classify_over_views(by_view);
+  estimate.classification = {.pooled = pooled,
+                             .rank = over_views.rank,
+                             .pooled_rank = PoseClassifier::rank(pooled),
+                             .pooled_log_odds = PoseClassifier::log_odds(pooled),
+                             .probability = over_views.probability,
+                             .psi_z_score = psi_z_score(pooled),
+                             .unexplained_grey = unexplained_grey(pooled.shading),
+                             .informative_views = int(over_views.informative_views),
+                             .has_psi_above_chance = has_psi_above_chance(pooled, by_view)};
 }
 
 }  // namespace edgescout
