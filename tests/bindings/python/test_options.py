@@ -30,7 +30,16 @@ def test_refuse_in_one_line(name, value, error, message):
     assert message in str(raised.value) and "\n" not in str(raised.value)
 
 
+def test_a_name_that_does_not_exist_is_refused_with_one_that_is_near():
+    options = edgescout.DetectOptions()
+    with pytest.raises(AttributeError, match="there is min_probability"):
+        options.min_probabilty
+    with pytest.raises(AttributeError, match="there is min_probability"):
+        options.min_probabilty = 0.5
+
+
 def test_each_is_explained():
     options = edgescout.DetectOptions()
     assert set(options.help()) < set(dir(options))
     assert all(len(text) > 10 for text in options.help().values())
+    assert edgescout.DetectOptions.coarse_poses.__doc__ == options.help()["coarse_poses"]

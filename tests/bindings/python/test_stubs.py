@@ -1,9 +1,14 @@
 """The type stubs name what the module has."""
 
 import ast
+import importlib.util
 import pathlib
 
+from conftest import SOURCE
+
 import edgescout
+
+STUB = pathlib.Path(edgescout.__file__).with_name("_core.pyi").read_text()
 
 
 def public(names):
@@ -11,7 +16,7 @@ def public(names):
 
 
 def test_the_stubs_name_what_the_module_has():
-    stub = ast.parse(pathlib.Path(edgescout.__file__).with_name("_core.pyi").read_text())
+    stub = ast.parse(STUB)
     classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
     functions = {node.name for node in stub.body if isinstance(node, ast.FunctionDef)}
     module = edgescout._core
@@ -20,6 +25,14 @@ def test_the_stubs_name_what_the_module_has():
         listed = {member.name for member in node.body if isinstance(member, ast.FunctionDef)}
         listed |= {member.target.id for member in node.body if isinstance(member, ast.AnnAssign)}
         assert public(listed) == public(vars(getattr(module, name))), name
+
+
+def test_the_stubs_give_each_option_its_type():
+    spec = importlib.util.spec_from_file_location("option_stubs", SOURCE / "scripts/option_stubs.py")
+    option_stubs = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(option_stubs)
+    assert "    coarse_poses: int\n" in STUB
+    assert option_stubs.with_option_classes(STUB) == STUB, "scripts/option_stubs.py mends it"
 
 
 def test_the_package_shows_what_the_module_has():

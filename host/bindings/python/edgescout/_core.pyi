@@ -2,7 +2,7 @@
 
 import os
 import pathlib
-from typing import Any, Callable, ClassVar, Dict, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Callable, ClassVar, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,6 @@ Image = npt.NDArray[np.uint8]
 AnyImage = Union[Image, npt.NDArray[np.uint16], npt.NDArray[np.float32]]
 Depth = Union[npt.NDArray[np.uint16], npt.NDArray[np.uint32], npt.NDArray[np.float32]]
 Matrix = npt.NDArray[np.float64]
-OptionValue = Union[bool, int, float, str, Tuple[float, float], Sequence[float]]
 
 class InputError(ValueError): ...
 class DeviceError(RuntimeError): ...
@@ -86,52 +85,241 @@ class Backend:
     @property
     def is_hardware(self) -> bool: ...
 
+# The classes of options are written by scripts/option_stubs.py.
 class ImageOptions:
-    def __init__(self, **options: OptionValue) -> None: ...
-    def __getattr__(self, name: str) -> Any: ...
-    def __setattr__(self, name: str, value: OptionValue) -> None: ...
+    bayer: str
+    image_scaling: str
+    image_range: Sequence[float]
+    raw_size: Sequence[float]
+    def __init__(
+        self, *, bayer: str = ..., image_scaling: str = ..., image_range: Sequence[float] = ...,
+        raw_size: Sequence[float] = ...
+    ) -> None: ...
     def copy(self) -> ImageOptions: ...
     def help(self) -> Dict[str, str]: ...
 
 class DepthOptions:
-    def __init__(self, **options: OptionValue) -> None: ...
-    def __getattr__(self, name: str) -> Any: ...
-    def __setattr__(self, name: str, value: OptionValue) -> None: ...
+    depth_unit: float
+    depth_range: Tuple[float, float]
+    depth_noise: float
+    depth_noise_floor: float
+    def __init__(
+        self, *, depth_unit: float = ..., depth_range: Tuple[float, float] = ...,
+        depth_noise: float = ..., depth_noise_floor: float = ...
+    ) -> None: ...
     def copy(self) -> DepthOptions: ...
     def help(self) -> Dict[str, str]: ...
 
 class TemplateOptions:
-    def __init__(self, **options: OptionValue) -> None: ...
-    def __getattr__(self, name: str) -> Any: ...
-    def __setattr__(self, name: str, value: OptionValue) -> None: ...
+    distance_min: float
+    distance_max: float
+    distance_ratio: float
+    viewpoints: int
+    in_plane_steps: int
+    latitude_min: float
+    latitude_max: float
+    longitude_min: float
+    longitude_max: float
+    crease_angle: float
+    raster_step: float
+    def __init__(
+        self, *, distance_min: float = ..., distance_max: float = ..., distance_ratio: float = ...,
+        viewpoints: int = ..., in_plane_steps: int = ..., latitude_min: float = ...,
+        latitude_max: float = ..., longitude_min: float = ..., longitude_max: float = ...,
+        crease_angle: float = ..., raster_step: float = ...
+    ) -> None: ...
     def copy(self) -> TemplateOptions: ...
     def help(self) -> Dict[str, str]: ...
 
 class DetectOptions:
-    def __init__(self, **options: OptionValue) -> None: ...
-    def __getattr__(self, name: str) -> Any: ...
-    def __setattr__(self, name: str, value: OptionValue) -> None: ...
+    edges: str
+    edge_sigma: float
+    edge_low: float
+    edge_high: float
+    edge_min_length: int
+    faint_edges: bool
+    bins: int
+    lambda_: float
+    smoothing_variance: float
+    cap: float
+    template_points: int
+    anchor_step: int
+    scan_hits: int
+    coarse_poses: int
+    medium_poses: int
+    coarse_poses_joint: int
+    medium_poses_joint: int
+    support_views: int
+    candidates: int
+    min_probability: float
+    region_x: float
+    region_y: float
+    region_width: float
+    region_height: float
+    restart_rotation: float
+    max_detections: int
+    penetration: float
+    world_box: Sequence[float]
+    world_plane: Sequence[float]
+    plane_tolerance: float
+    max_claimed: float
+    def __init__(
+        self, *, edges: str = ..., edge_sigma: float = ..., edge_low: float = ...,
+        edge_high: float = ..., edge_min_length: int = ..., faint_edges: bool = ...,
+        bins: int = ..., lambda_: float = ..., smoothing_variance: float = ..., cap: float = ...,
+        template_points: int = ..., anchor_step: int = ..., scan_hits: int = ...,
+        coarse_poses: int = ..., medium_poses: int = ..., coarse_poses_joint: int = ...,
+        medium_poses_joint: int = ..., support_views: int = ..., candidates: int = ...,
+        min_probability: float = ..., region_x: float = ..., region_y: float = ...,
+        region_width: float = ..., region_height: float = ..., restart_rotation: float = ...,
+        max_detections: int = ..., penetration: float = ..., world_box: Sequence[float] = ...,
+        world_plane: Sequence[float] = ..., plane_tolerance: float = ..., max_claimed: float = ...
+    ) -> None: ...
     def copy(self) -> DetectOptions: ...
     def help(self) -> Dict[str, str]: ...
 
 class RegisterOptions:
-    def __init__(self, **options: OptionValue) -> None: ...
-    def __getattr__(self, name: str) -> Any: ...
-    def __setattr__(self, name: str, value: OptionValue) -> None: ...
+    search_rotation: float
+    search_kept: int
+    solver: str
+    edge_icp: bool
+    edges: str
+    edge_sigma: float
+    edge_low: float
+    edge_high: float
+    edge_min_length: int
+    faint_edges: bool
+    bins: int
+    lambda_: float
+    smoothing_variance: float
+    cap: float
+    def __init__(
+        self, *, search_rotation: float = ..., search_kept: int = ..., solver: str = ...,
+        edge_icp: bool = ..., edges: str = ..., edge_sigma: float = ..., edge_low: float = ...,
+        edge_high: float = ..., edge_min_length: int = ..., faint_edges: bool = ...,
+        bins: int = ..., lambda_: float = ..., smoothing_variance: float = ..., cap: float = ...
+    ) -> None: ...
     def copy(self) -> RegisterOptions: ...
     def help(self) -> Dict[str, str]: ...
 
 class ScoutOptions:
-    def __init__(self, **options: OptionValue) -> None: ...
-    def __getattr__(self, name: str) -> Any: ...
-    def __setattr__(self, name: str, value: OptionValue) -> None: ...
+    max_views: int
+    min_entropy: float
+    min_information: float
+    min_gained: float
+    max_seconds: float
+    first_view: int
+    strategy: str
+    metre_cost: float
+    radian_cost: float
+    map_reduction: float
+    chamfer_cap: float
+    sigma: float
+    combinations: int
+    penetration: float
+    particles: int
+    max_candidates: int
+    known_probability: float
+    max_searches: int
+    edges: str
+    edge_sigma: float
+    edge_low: float
+    edge_high: float
+    edge_min_length: int
+    faint_edges: bool
+    bins: int
+    lambda_: float
+    smoothing_variance: float
+    cap: float
+    template_points: int
+    anchor_step: int
+    scan_hits: int
+    coarse_poses: int
+    medium_poses: int
+    coarse_poses_joint: int
+    medium_poses_joint: int
+    support_views: int
+    candidates: int
+    world_box: Sequence[float]
+    world_plane: Sequence[float]
+    plane_tolerance: float
+    min_probability: float
+    max_claimed: float
+    def __init__(
+        self, *, max_views: int = ..., min_entropy: float = ..., min_information: float = ...,
+        min_gained: float = ..., max_seconds: float = ..., first_view: int = ...,
+        strategy: str = ..., metre_cost: float = ..., radian_cost: float = ...,
+        map_reduction: float = ..., chamfer_cap: float = ..., sigma: float = ...,
+        combinations: int = ..., penetration: float = ..., particles: int = ...,
+        max_candidates: int = ..., known_probability: float = ..., max_searches: int = ...,
+        edges: str = ..., edge_sigma: float = ..., edge_low: float = ..., edge_high: float = ...,
+        edge_min_length: int = ..., faint_edges: bool = ..., bins: int = ..., lambda_: float = ...,
+        smoothing_variance: float = ..., cap: float = ..., template_points: int = ...,
+        anchor_step: int = ..., scan_hits: int = ..., coarse_poses: int = ...,
+        medium_poses: int = ..., coarse_poses_joint: int = ..., medium_poses_joint: int = ...,
+        support_views: int = ..., candidates: int = ..., world_box: Sequence[float] = ...,
+        world_plane: Sequence[float] = ..., plane_tolerance: float = ...,
+        min_probability: float = ..., max_claimed: float = ...
+    ) -> None: ...
     def copy(self) -> ScoutOptions: ...
     def help(self) -> Dict[str, str]: ...
 
 class TrackOptions:
-    def __init__(self, **options: OptionValue) -> None: ...
-    def __getattr__(self, name: str) -> Any: ...
-    def __setattr__(self, name: str, value: OptionValue) -> None: ...
+    instances: int
+    track_points: int
+    search_px: float
+    far_search_px: float
+    track_contrast: float
+    tracked_above_chance: float
+    lost_above_chance: float
+    no_register: bool
+    doubtful_frames: int
+    edges: str
+    edge_sigma: float
+    edge_low: float
+    edge_high: float
+    edge_min_length: int
+    faint_edges: bool
+    bins: int
+    lambda_: float
+    smoothing_variance: float
+    cap: float
+    template_points: int
+    anchor_step: int
+    scan_hits: int
+    coarse_poses: int
+    medium_poses: int
+    coarse_poses_joint: int
+    medium_poses_joint: int
+    support_views: int
+    candidates: int
+    min_probability: float
+    region_x: float
+    region_y: float
+    region_width: float
+    region_height: float
+    restart_rotation: float
+    max_detections: int
+    penetration: float
+    world_box: Sequence[float]
+    world_plane: Sequence[float]
+    plane_tolerance: float
+    max_claimed: float
+    def __init__(
+        self, *, instances: int = ..., track_points: int = ..., search_px: float = ...,
+        far_search_px: float = ..., track_contrast: float = ..., tracked_above_chance: float = ...,
+        lost_above_chance: float = ..., no_register: bool = ..., doubtful_frames: int = ...,
+        edges: str = ..., edge_sigma: float = ..., edge_low: float = ..., edge_high: float = ...,
+        edge_min_length: int = ..., faint_edges: bool = ..., bins: int = ..., lambda_: float = ...,
+        smoothing_variance: float = ..., cap: float = ..., template_points: int = ...,
+        anchor_step: int = ..., scan_hits: int = ..., coarse_poses: int = ...,
+        medium_poses: int = ..., coarse_poses_joint: int = ..., medium_poses_joint: int = ...,
+        support_views: int = ..., candidates: int = ..., min_probability: float = ...,
+        region_x: float = ..., region_y: float = ..., region_width: float = ...,
+        region_height: float = ..., restart_rotation: float = ..., max_detections: int = ...,
+        penetration: float = ..., world_box: Sequence[float] = ...,
+        world_plane: Sequence[float] = ..., plane_tolerance: float = ..., max_claimed: float = ...
+    ) -> None: ...
     def copy(self) -> TrackOptions: ...
     def help(self) -> Dict[str, str]: ...
 

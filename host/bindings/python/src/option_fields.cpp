@@ -126,4 +126,23 @@ const OptionField& field_named(const std::vector<OptionField>& fields, const std
                                         fmt::join(near, ", ")));
 }
 
+bool have_equal_values(const std::vector<OptionField>& a, const std::vector<OptionField>& b) {
+  return std::ranges::equal(a, b, [](const OptionField& of_a, const OptionField& of_b) {
+    return of_a.get().equal(of_b.get());
+  });
+}
+
+py::dict help_of(const std::vector<OptionField>& fields) {
+  py::dict help;
+  for (const OptionField& field : fields) help[py::str(field.name)] = field.help;
+  return help;
+}
+
+std::string repr_of(const std::string& type, const std::vector<OptionField>& fields) {
+  std::vector<std::string> values;
+  for (const OptionField& field : fields)
+    values.push_back(field.name + "=" + std::string(py::repr(field.get())));
+  return fmt::format("{}({})", type, fmt::join(values, ", "));
+}
+
 }  // namespace edgescout::python

@@ -49,7 +49,46 @@ class OptionFields : public OptionVisitor {
 // AttributeError naming similar ones: there is no option of this name.
 const OptionField& field_named(const std::vector<OptionField>& fields, const std::string& name);
 
-// Adds a class of options. `describe(options, visitor)` names them.
+// Of two structs of one type.
+bool have_equal_values(const std::vector<OptionField>& a, const std::vector<OptionField>& b);
+// From names to what the options mean.
+py::dict help_of(const std::vector<OptionField>& fields);
+// "DetectOptions(edges='gradient', ..)".
+std::string repr_of(const std::string& type, const std::vector<OptionField>& fields);
+
+// Adds a property for each option, and a constructor that takes them by name. `fields_of(options)`
+// returns the OptionField of each.
+template <typename Options, typename FieldsOf>
+void add_properties(py::class_<Options>& type, const FieldsOf& fields_of) {
+  const auto get = [fields_of](Options& options, const std::string& field) {
+    return field_named(fields_of(options), field).get();
+  };
+  const auto set = [fields_of](Options& options, const std::string& field,
+                               const py::object& value) {
+    field_named(fields_of(options), field).set(value);
+  };
+  Options defaults;
+  for (const OptionField& field : fields_of(defaults))
+    type.def_property(
+        field.name.c_str(),
+        [get, name = field.name](Options& options) { return get(options, name); },
+        [set, name = field.name](Options& options, const py::object& value) {
+          set(options, name, value);
+        },
+        field.help.c_str());
+  type.def(py::init([set](const py::kwargs& values) {
+             Options options;
+             for (const auto& [field, value] : values)
+               set(options, py::cast<std::string>(field),
+                   py::reinterpret_borrow<py::object>(value));
+             return options;
+           }),
+           "The defaults, but for those that are named.");
+  // For names that no property has.
+  type.def("__getattr__", get).def("__setattr__", set);
+}
+
+// Adds a class of options. `describe_all(options, visitor)` names them.
 template <typename Options, typename Describe>
 void add_options_class(py::module_& module, const char* name, const char* doc,
                        const Describe& describe_all) {
@@ -58,55 +97,19 @@ void add_options_class(py::module_& module, const char* name, const char* doc,
     describe_all(options, fields);
     return std::move(fields.fields);
   };
-  const auto set = [fields_of](Options& options, const std::string& field,
-                               const py::object& value) {
-    field_named(fields_of(options), field).set(value);
-  };
-  py::class_<Options>(module, name, doc)
-      .def(py::init([set](const py::kwargs& values) {
-             Options options;
-             for (const auto& [field, value] : values)
-               set(options, py::cast<std::string>(field),
-                   py::reinterpret_borrow<py::object>(value));
-             return options;
-           }),
-           "The defaults, but for those that are named.")
-      .def("__getattr__",
-           [fields_of](Options& options, const std::string& field) {
-             return field_named(fields_of(options), field).get();
-           })
-      .def("__setattr__", set)
-      .def("__dir__",
-           [fields_of](Options& options) {
-             std::vector<std::string> names{"copy", "help"};
-             for (const OptionField& field : fields_of(options)) names.push_back(field.name);
-             return names;
-           })
-      .def("__eq__",
+  py::class_<Options> type(module, name, doc);
+  add_properties(type, fields_of);
+  type.def("__eq__",
            [fields_of](Options& a, Options& b) {
-             const std::vector<OptionField> of_a = fields_of(a), of_b = fields_of(b);
-             for (std::size_t i = 0; i < of_a.size(); ++i)
-               if (!of_a[i].get().equal(of_b[i].get())) return false;
-             return true;
+             return have_equal_values(fields_of(a), fields_of(b));
            })
+      .def("__repr__",
+           [fields_of, name](Options& options) { return repr_of(name, fields_of(options)); })
       .def(
           "copy", [](const Options& options) { return options; }, "Options of their own.")
       .def(
-          "help",
-          [fields_of](Options& options) {
-            py::dict help;
-            for (const OptionField& field : fields_of(options))
-              help[py::str(field.name)] = field.help;
-            return help;
-          },
-          "What each option means: a dict from its name to one sentence.")
-      .def("__repr__", [fields_of, type = std::string(name)](Options& options) {
-        std::string text = type + "(";
-        for (const OptionField& field : fields_of(options))
-          text += (text.back() == '(' ? "" : ", ") + field.name + "=" +
-                  std::string(py::repr(field.get()));
-        return text + ")";
-      });
+          "help", [fields_of](Options& options) { return help_of(fields_of(options)); },
+          "What each option means: a dict from its name to one sentence.");
 }
 
 }  // namespace edgescout::python
