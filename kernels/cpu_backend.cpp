@@ -1,62 +1,18 @@
 // The two CPU backends: the fast path people without a GPU use, and the plain reference.
 #include <algorithm>
-#include <cstdlib>
-#include <mutex>
+#include <chrono>
 #include <new>
 #include <string>
 
 #include "kernels/backend.h"
+#include "kernels/cpu_handles.h"
 #include "kernels/error.h"
 #include "kernels/pose_problems.h"
 #include "kernels/thread_pool.h"
 
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
-
 namespace edgescout {
 
 namespace {
-
-// Tensor memory, aligned to a line and handed back to a small store: a fresh 94 MB costs as much in
-// page faults as half a tensor.
-class TensorMemory {
- public:
-  using Block = std::span<std::uint16_t>;
-  ~TensorMemory() {
-    for (Block block : free_) std::free(block.data());
-  }
-  Block take(std::size_t size) {
-    std::lock_guard lock(mutex_);
-    for (auto it = free_.begin(); it != free_.end(); ++it)
-      if (it->size() == size) {
-        const Block block = *it;
-        free_.erase(it);
-        return block;
-      }
-    constexpr std::size_t page = std::size_t{2} << 20;
-    const std::size_t bytes = (size * sizeof(std::uint16_t) + page - 1) / page * page;
-    void* memory = std::aligned_alloc(page, bytes);
-    if (!memory) throw std::bad_alloc();
-#ifdef __linux__
-    madvise(memory, bytes, MADV_HUGEPAGE);
-#endif
-    return {static_cast<std::uint16_t*>(memory), size};
-  }
-  void give_back(Block block) {
-    std::lock_guard lock(mutex_);
-    constexpr std::size_t kept = 2;
-    if (free_.size() >= kept) {
-      std::free(free_.front().data());
-      free_.erase(free_.begin());
-    }
-    free_.push_back(block);
-  }
-
- private:
-  std::mutex mutex_;
-  std::vector<Block> free_;
-};
 
 // As the GPU's tensor says it: this image, and not the program, is at its end.
 [[noreturn]] void too_large(const TensorShape& shape) {
@@ -66,62 +22,6 @@ class TensorMemory {
                        std::to_string(2 * shape.size()) + " bytes",
                    "one that memory has room for (a smaller image or fewer bins)");
 }
-
-class CpuView : public BackendView {
- public:
-  CpuView(std::shared_ptr<TensorMemory> memory, std::size_t size)
-      : memory_(std::move(memory)), values(memory_->take(size)) {}
-  ~CpuView() override { memory_->give_back(values); }
-  std::vector<std::uint16_t> tensor() const override { return {values.begin(), values.end()}; }
-  TensorView tensor_view() const { return {values, shape, intrinsics}; }
-  ImageView image() const {
-    return pixels.empty() ? ImageView{} : ImageView{shape.width, shape.height, pixels.data()};
-  }
-  SupportView support_view() const { return {support_map, shape.width, shape.height}; }
-
- private:
-  std::shared_ptr<TensorMemory> memory_;
-
- public:
-  std::span<std::uint16_t> values;
-  std::vector<std::uint8_t> pixels;
-  std::vector<std::int16_t> gradient_x2;
-  std::vector<std::uint32_t> support_map;
-};
-
-template <class Handle, class Point>
-class CpuPoints : public Handle {
- public:
-  explicit CpuPoints(Unfilled<Point> points) : points(std::move(points)) {}
-  Unfilled<Point> points;
-};
-using CpuPosePoints = CpuPoints<BackendPosePoints, ModelPoint>;
-using CpuSurfacePoints = CpuPoints<BackendSurfacePoints, SurfacePoint>;
-
-class CpuDepth : public BackendDepth {
- public:
-  explicit CpuDepth(const DepthView& depth) : values(depth.z_m.begin(), depth.z_m.end()) {
-    width = depth.width;
-    height = depth.height;
-    intrinsics = depth.intrinsics;
-  }
-  DepthView depth_view() const { return {values, width, height, intrinsics}; }
-  std::vector<float> values;
-};
-
-class CpuModelPoints : public BackendModelPoints {
- public:
-  explicit CpuModelPoints(std::span<const ModelPoint> points) : planes(points) {
-    count = planes.count();
-  }
-  ModelPointPlanes planes;
-};
-
-class CpuChamfer : public BackendChamfer {
- public:
-  std::vector<ChamferCell> cells() const override { return values; }
-  std::vector<ChamferCell> values;
-};
 
 class CpuBackend : public Backend {
  public:
@@ -176,25 +76,23 @@ class CpuBackend : public Backend {
   void template_project(const BackendModelPoints& points, std::span<const TemplateProjectJob> jobs,
                         const TemplateProjectOptions& options, std::span<TemplatePoint> projected,
                         std::span<std::uint32_t> too_near) override {
-    const auto* mine = dynamic_cast<const CpuModelPoints*>(&points);
-    check(mine != nullptr, "model points of another backend");
+    const CpuModelPoints& mine = own(points);
     const Timer timer(*this, "template_project");
     if (fast_)
-      template_project_fast(mine->planes, jobs, options, projected, too_near, pool_);
+      template_project_fast(mine.planes, jobs, options, projected, too_near, pool_);
     else
-      template_project_reference(mine->planes, jobs, options, projected, too_near);
+      template_project_reference(mine.planes, jobs, options, projected, too_near);
   }
 
   void template_scan(const BackendView& view, const BackendModelPoints& points,
                      const TemplateScan& scan, std::span<TemplateHit> hits) override {
-    const auto* mine = dynamic_cast<const CpuModelPoints*>(&points);
-    check(mine != nullptr, "model points of another backend");
+    const CpuModelPoints& mine = own(points);
     const Timer timer(*this, "template_scan");
     const CpuView& on = own(view);
     if (fast_)
-      template_scan_fast(on.values, on.shape, mine->planes, scan, hits, pool_);
+      template_scan_fast(on.values, on.shape, mine.planes, scan, hits, pool_);
     else
-      template_scan_reference(on.values, on.shape, mine->planes, scan, hits);
+      template_scan_reference(on.values, on.shape, mine.planes, scan, hits);
   }
 
   void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
@@ -217,9 +115,8 @@ class CpuBackend : public Backend {
   void pose_normal_equations(std::span<const ViewHandle> views, const BackendPosePoints& points,
                              std::span<const PoseProblem> problems, const PoseLoss& loss,
                              std::span<NormalEquations> out) override {
-    const auto* mine = dynamic_cast<const CpuPosePoints*>(&points);
-    check(mine != nullptr, "points of another backend");
-    pose_normal_equations(views, mine->points, problems, loss, out);
+    const auto& mine = own<CpuPosePoints>(points, "points of another backend");
+    pose_normal_equations(views, mine.points, problems, loss, out);
   }
 
   void pose_score(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
@@ -248,15 +145,14 @@ class CpuBackend : public Backend {
   void pose_depth(std::span<const DepthHandle> views, const BackendSurfacePoints& points,
                   std::span<const PoseProblem> problems, const PoseDepthOptions& options,
                   std::span<PoseDepth> out) override {
-    const auto* mine = dynamic_cast<const CpuSurfacePoints*>(&points);
-    check(mine != nullptr, "points of another backend");
+    const auto& mine = own<CpuSurfacePoints>(points, "points of another backend");
     const Timer timer(*this, "pose_depth");
     std::vector<DepthView> images;
     for (const DepthHandle& view : views) images.push_back(own(*view).depth_view());
     if (fast_)
-      pose_depth_fast(images, mine->points, problems, options, out, pool_);
+      pose_depth_fast(images, mine.points, problems, options, out, pool_);
     else
-      pose_depth_reference(images, mine->points, problems, options, out);
+      pose_depth_reference(images, mine.points, problems, options, out);
   }
 
   void edge_support(std::span<const ViewHandle> views, std::span<const SupportPoint> points,
@@ -326,10 +222,9 @@ class CpuBackend : public Backend {
   double mutual_information(const BackendChamfer& chamfer, std::span<const ParticleBelief> beliefs,
                             const InformationOptions& options) override {
     const Timer timer(*this, "mutual_information");
-    const auto* mine = dynamic_cast<const CpuChamfer*>(&chamfer);
-    check(mine != nullptr, "cells made by another backend");
+    const auto& mine = own<CpuChamfer>(chamfer, "cells made by another backend");
     return information_of(
-        {chamfer.particles, chamfer.combinations, chamfer.options.cap_px, mine->values}, beliefs,
+        {chamfer.particles, chamfer.combinations, chamfer.options.cap_px, mine.values}, beliefs,
         options);
   }
 
@@ -396,16 +291,21 @@ class CpuBackend : public Backend {
                  : mutual_information_reference(table, beliefs, options);
   }
 
-  static const CpuView& own(const BackendView& view) {
-    const auto* mine = dynamic_cast<const CpuView*>(&view);
-    check(mine != nullptr, "a view made by another backend");
+  // LogicError with `message` where another backend made it.
+  template <class Mine, class Handle>
+  static const Mine& own(const Handle& handle, const char* message) {
+    const auto* mine = dynamic_cast<const Mine*>(&handle);
+    check(mine != nullptr, message);
     return *mine;
   }
-
+  static const CpuView& own(const BackendView& view) {
+    return own<CpuView>(view, "a view made by another backend");
+  }
   static const CpuDepth& own(const BackendDepth& depth) {
-    const auto* mine = dynamic_cast<const CpuDepth*>(&depth);
-    check(mine != nullptr, "a depth image of another backend");
-    return *mine;
+    return own<CpuDepth>(depth, "a depth image of another backend");
+  }
+  static const CpuModelPoints& own(const BackendModelPoints& points) {
+    return own<CpuModelPoints>(points, "model points of another backend");
   }
 
   bool fast_;
