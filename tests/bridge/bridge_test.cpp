@@ -2,19 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "host/bridge/ros2/depth_message.h"
 #include "tests/bridge/tested_bridge.h"
 #include "tests/io/collected_log.h"
 
 namespace edgescout::ros2::test {
 
 namespace {
-
-void expect_same_pose(const msg::Pose& pose, const Se3& expected, double tolerance = 0) {
-  const Se3 found = pose_of(pose, "pose");
-  EXPECT_LE(distance_between_m(found, expected), tolerance);
-  EXPECT_LE(angle_between_rad(found, expected), 1e-7 + tolerance);
-}
 
 TEST(Bridge, DetectsWhatTheLibraryDetects) {
   SmallWorld& world = small_world();
@@ -157,96 +150,6 @@ TEST(Bridge, AnImageWithoutAResultIsNone) {
   EXPECT_TRUE(holds(tested.status().message, "no result yet")) << tested.status().message;
 }
 
-TEST(Bridge, ARequestIsAnsweredByTheNextImage) {
-  BridgeOptions options = quick();
-  options.on_request = true;
-  options.request_seconds = 30;
-  TestedBridge tested(options);
-  tested.give_info();
-  tested.give_image(1);
-  EXPECT_FALSE(tested.bridge.work(0));  // nobody asks
-  std::vector<msg::DetectResult> answers;
-  const auto keep = [&](const msg::DetectResult& result) { answers.push_back(result); };
-  tested.bridge.request(msg::DetectRequest{}, keep);
-  EXPECT_FALSE(tested.bridge.work(0));  // that image came before
-  msg::Image bad = image_message(small_world().image(), 2);
-  bad.encoding = "x";
-  tested.bridge.take(ImageMessage(bad));
-  tested.bridge.work(0);
-  EXPECT_TRUE(answers.empty());
-  tested.give_image(3);
-  EXPECT_TRUE(tested.bridge.work(0));
-  ASSERT_EQ(answers.size(), 1u);
-  EXPECT_TRUE(answers[0].success) << answers[0].message;
-  EXPECT_EQ(answers[0].detections.header.stamp, header_at(3).stamp);
-  EXPECT_FALSE(answers[0].detections.detections.empty());
-  EXPECT_EQ(tested.results.detections.size(), 1u);  // published as well
-  tested.give_image(4);
-  EXPECT_FALSE(tested.bridge.work(0));
-}
-
-TEST(Bridge, RequestsEndWithoutAnImage) {
-  BridgeOptions options = quick();
-  options.request_seconds = 0;
-  TestedBridge tested(options);
-  tested.give_image();
-  std::vector<std::string> answers;
-  tested.bridge.request(msg::DetectRequest{},
-                        [&](const msg::DetectResult& r) { answers.push_back(r.message); });
-  EXPECT_TRUE(tested.bridge.work(0));
-  ASSERT_EQ(answers.size(), 1u);
-  EXPECT_TRUE(holds(answers[0], "no image in time (camera_info: found no message")) << answers[0];
-}
-
-TEST(Bridge, TooManyRequestsAreRefused) {
-  TestedBridge tested;
-  int refused = 0;
-  for (int i = 0; i < 100; ++i) {
-    tested.bridge.request(msg::DetectRequest{}, [&](const msg::DetectResult& r) {
-      refused += holds(r.message, "too many");
-    });
-    tested.bridge.request(msg::ScoutStateRequest{}, [&](const msg::ScoutStateResult& r) {
-      refused += holds(r.message, "too many");
-    });
-  }
-  EXPECT_EQ(refused, 2 * (100 - 64));
-}
-
-TEST(Bridge, ALimitOfTimeIsKeptAndSaid) {
-  TestedBridge tested;
-  tested.give_info();
-  msg::DetectResult answer;
-  tested.bridge.request(msg::DetectRequest{1e-6}, [&](const msg::DetectResult& r) { answer = r; });
-  tested.give_image();
-  tested.bridge.work(0);
-  EXPECT_TRUE(answer.success);
-  EXPECT_EQ(answer.message, "deadline passed");
-  EXPECT_EQ(tested.count("images not worked on wholly"), 1u);
-}
-
-// The camera hangs on an arm: the world is where the scene says.
-struct ArmBridge : TestedBridge {
-  static BridgeOptions options() {
-    BridgeOptions options = quick();
-    options.world_frame = "world";
-    options.publish_tf = true;
-    options.scout.pipeline = options.pipeline;
-    options.scout.max_views = 2;
-    for (std::size_t view : {0, 1})
-      options.scout_views.push_back(small_world().camera_from_world(view));
-    return options;
-  }
-  explicit ArmBridge(const BridgeOptions& with = options()) : TestedBridge(with) {
-    results.wants = true;
-  }
-  // The camera's pose at a time.
-  void stand_at(std::size_t view, double seconds) {
-    bridge.take({{transform_message("world", "camera",
-                                    inverse(small_world().camera_from_world(view)), seconds)}},
-                false);
-  }
-};
-
 TEST(Bridge, PosesMayBeInTheWorld) {
   ArmBridge tested;
   tested.give_info();
@@ -292,114 +195,6 @@ TEST(Bridge, PosesMayBeInTheWorld) {
   EXPECT_EQ(tested.results.overlays[0].encoding, "rgb8");
   EXPECT_EQ(tested.results.overlays[0].header.frame_id, "camera");
   EXPECT_EQ(tested.results.overlays[0].data.size(), 3u * 320 * 240);
-}
-
-TEST(Bridge, EstimatesPosesOverSeveralCameras) {
-  TestedBridge tested;
-  msg::GetPoseEstimatesResult answer;
-  const auto ask = [&](const msg::GetPoseEstimatesRequest& request) {
-    tested.bridge.request(request, [&](const msg::GetPoseEstimatesResult& r) { answer = r; });
-    EXPECT_TRUE(tested.bridge.work(0));
-  };
-  ask({{1}, {calibrated(0), calibrated(1)}});
-  ASSERT_TRUE(answer.success) << answer.message;
-  ASSERT_FALSE(answer.pose_estimates.empty());
-  EXPECT_EQ(answer.pose_estimates[0].obj_id, 1u);
-  expect_same_pose(answer.pose_estimates[0].pose, small_world().scene.placed[0].world_from_object,
-                   0.02);
-  ask({{1}, {}});
-  EXPECT_TRUE(holds(answer.message, "cameras: found none"));
-  EXPECT_FALSE(answer.success);
-  ask({{7}, {calibrated(0)}});
-  EXPECT_TRUE(holds(answer.message, "object_ids: found 7, expected one of 1"));
-  msg::CalibratedImage bad = calibrated(1);
-  bad.pose.orientation = {0, 0, 0, 0};
-  ask({{}, {calibrated(0), bad}});
-  EXPECT_TRUE(holds(answer.message, "cameras[1]")) << answer.message;
-  bad = calibrated(1);
-  bad.info.k = {};
-  ask({{}, {calibrated(0), bad}});
-  EXPECT_TRUE(holds(answer.message, "cameras[1]: k")) << answer.message;
-}
-
-// Asks and returns the answer of a request that needs no image.
-template <typename Result, typename Request>
-Result answer_of(TestedBridge& tested, const Request& request) {
-  Result answer;
-  tested.bridge.request(request, Answer<Result>([&](const Result& result) { answer = result; }));
-  tested.bridge.work(0);
-  return answer;
-}
-
-TEST(Bridge, ScoutsWithACameraOnAnArm) {
-  ArmBridge tested;
-  using Propose = msg::ScoutProposeResult;
-  using Give = msg::ScoutGiveResult;
-  using State = msg::ScoutStateResult;
-  EXPECT_TRUE(holds(answer_of<State>(tested, msg::ScoutStateRequest{}).message, "run: found none"));
-  EXPECT_TRUE(holds(answer_of<Propose>(tested, msg::ScoutProposeRequest{}).message,
-                    "camera_info: messages: found none"));
-  tested.give_info();
-  const Propose first = answer_of<Propose>(tested, msg::ScoutProposeRequest{});
-  ASSERT_TRUE(first.success) << first.message;
-  EXPECT_FALSE(first.done);
-  EXPECT_EQ(first.camera_pose.header.frame_id, "world");
-  expect_same_pose(first.camera_pose.pose,
-                   inverse(small_world().camera_from_world(std::size_t(first.view))), 1e-12);
-  EXPECT_TRUE(holds(answer_of<Give>(tested, msg::ScoutGiveRequest{9, true, "no path"}).message,
-                    "view: found 9, expected 0 to 1"));
-
-  Give given;
-  tested.bridge.request(msg::ScoutGiveRequest{first.view, false, ""},
-                        Answer<Give>([&](const Give& result) { given = result; }));
-  tested.stand_at(std::size_t(first.view), 7);
-  tested.give_image(7, std::size_t(first.view));
-  tested.bridge.work(0);
-  EXPECT_TRUE(given.success) << given.message;
-  const State state = answer_of<State>(tested, msg::ScoutStateRequest{});
-  EXPECT_EQ(state.images, 1);
-  EXPECT_EQ(state.detections.header.frame_id, "world");
-
-  const Propose second = answer_of<Propose>(tested, msg::ScoutProposeRequest{});
-  if (!second.done) {
-    EXPECT_NE(second.view, first.view);
-    EXPECT_TRUE(
-        answer_of<Give>(tested, msg::ScoutGiveRequest{second.view, true, "no path"}).success);
-  }
-  const Propose last = answer_of<Propose>(tested, msg::ScoutProposeRequest{});
-  EXPECT_TRUE(last.done);
-  EXPECT_NE(last.end, "");
-  EXPECT_FALSE(answer_of<Propose>(tested, msg::ScoutProposeRequest{true}).done);
-}
-
-TEST(Bridge, AScoutTakesTheDepthOfItsImage) {
-  BridgeOptions options = ArmBridge::options();
-  options.depth = DepthSource::Aligned;
-  ArmBridge tested(options);
-  tested.give_info();
-  const auto view =
-      std::size_t(answer_of<msg::ScoutProposeResult>(tested, msg::ScoutProposeRequest{}).view);
-  msg::ScoutGiveResult given;
-  tested.bridge.request(msg::ScoutGiveRequest{std::int32_t(view), false, ""},
-                        Answer<msg::ScoutGiveResult>([&](const auto& result) { given = result; }));
-  tested.stand_at(view, 7);
-  tested.give_image(7, view);
-  tested.bridge.take_depth(depth_message(7, view));
-  tested.bridge.work(0);
-  EXPECT_TRUE(given.success) << given.message;
-  const double entropy_nats =
-      answer_of<msg::ScoutStateResult>(tested, msg::ScoutStateRequest{}).entropy_nats;
-
-  SmallWorld& world = small_world();
-  const auto by_library = [&](std::shared_ptr<const MeasuredDepth> depth) {
-    Scout scout(world.sets, world.camera(), options.scout_views, options.scout, *world.backend);
-    scout.give(int(view), Shot{world.image(view), options.scout_views[view], std::move(depth)});
-    return scout.state().entropy_nats;
-  };
-  const auto measured = std::make_shared<const MeasuredDepth>(
-      MeasuredDepth{depth_of(depth_message(7, view), {}, "depth"), {}});
-  EXPECT_NEAR(entropy_nats, by_library(measured), 1e-6);
-  EXPECT_GT(std::abs(entropy_nats - by_library(nullptr)), 1e-3);
 }
 
 TEST(Bridge, StopsWorkInProgress) {

@@ -1,6 +1,8 @@
 // A bridge on SmallWorld, and what it sent.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <functional>
 #include <string>
 #include <vector>
@@ -57,8 +59,37 @@ struct TestedBridge {
   }
 };
 
+// The camera hangs on an arm: the world is where the scene says.
+struct ArmBridge : TestedBridge {
+  static BridgeOptions options() {
+    BridgeOptions options = quick();
+    options.world_frame = "world";
+    options.publish_tf = true;
+    options.scout.pipeline = options.pipeline;
+    options.scout.max_views = 2;
+    for (std::size_t view : {0, 1})
+      options.scout_views.push_back(small_world().camera_from_world(view));
+    return options;
+  }
+  explicit ArmBridge(const BridgeOptions& with = options()) : TestedBridge(with) {
+    results.wants = true;
+  }
+  // The camera's pose at a time.
+  void stand_at(std::size_t view, double seconds) {
+    bridge.take({{transform_message("world", "camera",
+                                    inverse(small_world().camera_from_world(view)), seconds)}},
+                false);
+  }
+};
+
 inline bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
+}
+
+inline void expect_same_pose(const msg::Pose& pose, const Se3& expected, double tolerance = 0) {
+  const Se3 found = pose_of(pose, "pose");
+  EXPECT_LE(distance_between_m(found, expected), tolerance);
+  EXPECT_LE(angle_between_rad(found, expected), 1e-7 + tolerance);
 }
 
 }  // namespace edgescout::ros2::test
