@@ -1,14 +1,12 @@
 #include "host/bridge/ros2/bridge.h"
 
 #include <algorithm>
-#include <new>
 
 #include "host/bridge/ros2/depth_message.h"
 #include "host/bridge/ros2/frames.h"
+#include "host/bridge/ros2/guarded.h"
 #include "host/core/camera_check.h"
 #include "host/core/option_names.h"
-#include "host/io/camera_file.h"
-#include "host/io/one_line.h"
 #include "kernels/error.h"
 
 namespace edgescout::ros2 {
@@ -18,28 +16,6 @@ namespace {
 constexpr char info_subject[] = "camera_info", image_subject[] = "image", tf_subject[] = "tf",
                search_subject[] = "detection", depth_subject[] = "depth",
                depth_message_subject[] = "depth message";
-
-template <typename Result>
-Result failure(const std::string& why) {
-  Result result;
-  result.success = false;
-  result.message = one_line(why);
-  return result;
-}
-
-// Whatever a message makes the library throw is an error of that message. A failed device is not.
-template <typename Work, typename OnError>
-void guarded(const Work& work, const OnError& on_error) {
-  try {
-    work();
-  } catch (const GpuError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    on_error("found more than there is memory for, expected less");
-  } catch (const std::exception& error) {
-    on_error(one_line(error.what()));
-  }
-}
 
 std::string subject_of(DepthFault fault) {
   constexpr const char* subjects[] = {"depth unit", "depth pose", "depth of another image"};
@@ -59,7 +35,6 @@ std::string question_of(DepthFault fault) {
 }
 
 constexpr char dropped_for_newer[] = "images dropped: a newer one came";
-constexpr char too_many[] = "request: found too many that wait, expected fewer";
 
 std::optional<DepthWait> depth_wait(const BridgeOptions& options) {
   return options.depth == DepthSource::None ? std::nullopt : std::optional(options.depth_wait);
@@ -77,6 +52,7 @@ Bridge::Bridge(TemplateSource templates, Backend& backend, BridgeOptions options
       outbox_(outbox),
       diagnostics_(options_.node, options_.on_request),
       inbox_(!options_.on_request, depth_wait(options_)),
+      camera_(options_),
       depth_(options_, tf_),
       search_(std::move(templates), backend, options_.pipeline),
       scout_(search_, cancellable(options_.scout, inbox_), options_.scout_views,
@@ -117,10 +93,7 @@ void Bridge::take_depth(const msg::CameraInfo& info) { depth_.add(info); }
 void Bridge::take(const msg::CameraInfo& info) {
   diagnostics_.count("camera infos received");
   if (options_.camera) return;
-  {
-    const std::scoped_lock lock(infos_mutex_);
-    infos_.add(info);
-  }
+  camera_.add(info);
   inbox_.put_calibration();
 }
 
@@ -139,56 +112,6 @@ TimeLimit Bridge::limit_of(double max_seconds) const {
       max_seconds > 0 ? TimeLimit::after(std::min(max_seconds, longest_s)) : TimeLimit{};
   limit.cancelled = [this] { return inbox_.is_stopped(); };
   return limit;
-}
-
-template <typename Result, typename Work>
-void Bridge::add_job(const Answer<Result>& answer, const Work& work) {
-  const bool is_taken = inbox_.put([answer, work] {
-    guarded([&] { answer(work()); }, [&](const std::string& why) { answer(failure<Result>(why)); });
-  });
-  if (!is_taken) answer(failure<Result>(too_many));
-}
-
-void Bridge::request(const msg::DetectRequest& request, const Answer<msg::DetectResult>& answer) {
-  const auto fail = [answer](const std::string& why) { answer(failure<msg::DetectResult>(why)); };
-  const double max_seconds = request.max_seconds > 0 ? request.max_seconds : options_.max_seconds;
-  const auto on_image = [this, answer, fail, max_seconds](const TakenImage& image) {
-    guarded(
-        [&] {
-          const Found found = detect(image, max_seconds);
-          answer({true, found.completion == Completion::Complete ? "" : to_string(found.completion),
-                  detections_message(found.header, found.detections, search_.objects())});
-        },
-        fail);
-  };
-  if (!inbox_.put({on_image, fail, {}, 0}, options_.request_seconds)) fail(too_many);
-}
-
-void Bridge::request(msg::GetPoseEstimatesRequest request,
-                     const Answer<msg::GetPoseEstimatesResult>& answer) {
-  add_job(answer, [this, request = std::move(request)] { return estimate(request); });
-}
-
-void Bridge::request(const msg::ScoutProposeRequest& request,
-                     const Answer<msg::ScoutProposeResult>& answer) {
-  add_job(answer, [this, request] { return scout_.propose(request, calibration_of({})); });
-}
-
-void Bridge::request(const msg::ScoutGiveRequest& request,
-                     const Answer<msg::ScoutGiveResult>& answer) {
-  if (request.failed) return add_job(answer, [this, request] { return scout_.fail(request); });
-  const auto fail = [answer](const std::string& why) {
-    answer(failure<msg::ScoutGiveResult>(why));
-  };
-  const auto on_image = [this, answer, fail, request](const TakenImage& image) {
-    guarded([&] { answer(scout_.give(request, image, inverse(world_from_camera(image.header)))); },
-            fail);
-  };
-  if (!inbox_.put({on_image, fail, {}, 0}, options_.request_seconds)) fail(too_many);
-}
-
-void Bridge::request(const msg::ScoutStateRequest&, const Answer<msg::ScoutStateResult>& answer) {
-  add_job(answer, [this] { return scout_.state(); });
 }
 
 bool Bridge::work(double seconds) {
@@ -250,8 +173,7 @@ std::optional<Camera> Bridge::camera_for(const msg::Header& header, int width, i
   std::optional<Camera> camera;
   guarded(
       [&] {
-        camera = camera_for_image(calibration_of(header), width, height, options_.scale_camera,
-                                  options_.camera ? options_.camera_file : info_subject);
+        camera = camera_.of_topic(header, width, height);
         diagnostics_.solved(info_subject);
         warn_of(*camera);
       },
@@ -293,20 +215,6 @@ void Bridge::warn_of_depth() {
     else if (diagnostics_.problem_of(subject).empty())
       diagnostics_.problem(subject, warning->found + "; " + question_of(fault));
   }
-}
-
-Camera Bridge::calibration_of(const msg::Header& image) const {
-  Camera camera;
-  if (options_.camera) {
-    camera = *options_.camera;
-  } else {
-    const std::scoped_lock lock(infos_mutex_);
-    if (infos_.empty())
-      throw InputError(info_subject, "messages", "none", "one of the camera before");
-    camera = camera_of(*infos_.for_image(image), options_.rectified, info_subject);
-  }
-  camera.field_of_view_rad = options_.field_of_view_rad;
-  return camera;
 }
 
 // Values that are possible and hardly right: said once of each camera.
@@ -377,29 +285,6 @@ void Bridge::publish(const Found& found, const msg::Header& image,
   if (outbox_.wants_markers())
     outbox_.send(markers_message(found.header, found.detections, objects));
   if (outbox_.wants_overlay()) outbox_.send(message_of(search_.overlay(in_camera), image));
-}
-
-msg::GetPoseEstimatesResult Bridge::estimate(const msg::GetPoseEstimatesRequest& request) {
-  std::vector<CameraView> views;
-  for (std::size_t i = 0; i < request.cameras.size(); ++i) {
-    const msg::CalibratedImage& given = request.cameras[i];
-    const std::string source = "cameras[" + std::to_string(i) + "]";
-    Image image = image_of(ImageMessage(given.image), source, options_.images);
-    Camera camera = camera_of(given.info, options_.rectified, source);
-    camera.field_of_view_rad = options_.field_of_view_rad;
-    camera = camera_for_image(camera, image.width, image.height, options_.scale_camera, source);
-    views.push_back({std::move(image), camera, inverse(pose_of(given.pose, source)),
-                     depth_.of_request(given.depth, camera, source + ".depth")});
-  }
-  const Detections found =
-      search_.in_views(views, request.object_ids, limit_of(options_.max_seconds));
-  msg::GetPoseEstimatesResult result{true, "", {}};
-  if (found.completion != Completion::Complete) result.message = to_string(found.completion);
-  for (const Detection& detection : found.detections)
-    result.pose_estimates.push_back(
-        {std::uint64_t(search_.objects().sets[std::size_t(detection.object)].object_id),
-         detection.probability, message_of(detection.world_from_object)});
-  return result;
 }
 
 }  // namespace edgescout::ros2

@@ -5,12 +5,11 @@
 #pragma once
 
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <string>
 
 #include "host/bridge/ros2/bridge_options.h"
-#include "host/bridge/ros2/camera_info.h"
+#include "host/bridge/ros2/camera_for_image.h"
 #include "host/bridge/ros2/depth_for_image.h"
 #include "host/bridge/ros2/diagnostics.h"
 #include "host/bridge/ros2/inbox.h"
@@ -70,8 +69,6 @@ class Bridge {
   std::shared_ptr<const MeasuredDepth> depth_for(const ArrivedImage& arrived, const Camera& camera);
   void warn_of_depth();  // of the image that was worked on last
   std::optional<Camera> camera_for(const msg::Header& header, int width, int height);
-  // That of the image's time; with an empty header the latest. InputError: none came.
-  Camera calibration_of(const msg::Header& image) const;
   void warn_of(const Camera& camera);
   void wait_for_calibration(ArrivedImage arrived, std::vector<ImageRequest> requests);
   // Detects and publishes. InputError: a pose that tf does not know, what the library refuses.
@@ -87,9 +84,8 @@ class Bridge {
   Diagnostics diagnostics_;
   Inbox inbox_;
   TfBuffer tf_;
+  CameraForImage camera_;
   DepthForImage depth_;
-  mutable std::mutex infos_mutex_;
-  CameraInfos infos_;
   ObjectSearch search_;
   ScoutRequests scout_;
   std::optional<Camera> warned_of_;
