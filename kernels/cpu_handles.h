@@ -54,7 +54,7 @@ class CpuView : public BackendView {
 template <class Handle, class Point>
 class CpuPoints : public Handle {
  public:
-  explicit CpuPoints(Unfilled<Point> points) : points(std::move(points)) {}
+  explicit CpuPoints(Unfilled<Point> given) : points(std::move(given)) {}
   Unfilled<Point> points;
 };
 using CpuPosePoints = CpuPoints<BackendPosePoints, ModelPoint>;

@@ -38,6 +38,9 @@ struct RefineOptions {
   // Pairs of a pose and a view that are processed at once. With a search a pair takes up to 2 MB of
   // points. Results do not depend on it.
   int batch_size = 256;
+  // Not an aggregate: where a later member of a temporary throws, gcc 12 warns that `search` or
+  // `edge_icp` may be uninitialised as they are destroyed (-Wmaybe-uninitialized).
+  RefineOptions() = default;
   void validate() const;  // InputError naming the field and the violated bound
 };
 

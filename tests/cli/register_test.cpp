@@ -113,7 +113,7 @@ TEST(Register, RefinesOneWorldPoseOverAllViews) {
   const Se3 other_from_world = *scene.images[0].camera_from_world;
   for (const Detection& d : result.detections)
     elsewhere.push_back({1, 0, result.objects[static_cast<std::size_t>(d.object)].id, 1,
-                         other_from_world * d.world_from_object, -1});
+                         other_from_world * d.world_from_object, -1, ""});
   expect_at_truth(elsewhere, true_results(scene, 0), 0.02);
   EXPECT_TRUE(fs::exists(out / "000001_000000_overlay.png"));
   EXPECT_FALSE(fs::exists(out / "000001_000000.json"));

@@ -79,7 +79,7 @@ TEST_P(Corpus, IsReadOrRefusedWhenDamaged) {
 
 INSTANTIATE_TEST_SUITE_P(Readers, Corpus,
                          testing::ValuesIn(fuzzed_readers().begin(), fuzzed_readers().end()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& reader) { return std::string(reader.param.name); });
 
 }  // namespace
 }  // namespace edgescout::test

@@ -63,7 +63,8 @@ TEST(PoseProbability, SeparatesTheBestFromTheWorst) {
                  .in_image = 1,
                  .visible = 200,
                  .shading = {1000, 1e6, 1e4},
-                 .support = {200, 60, 0.9f, 0.3f}};
+                 .support = {200, 60, 0.9f, 0.3f},
+                 .depth = {}};
   EXPECT_GT(PoseClassifier::probability(f), 0.9);
   f.psi = 0.75, f.mean_px = 8;
   f.support = {5, -5, 0.4f, 0.35f};

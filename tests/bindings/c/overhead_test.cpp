@@ -65,7 +65,10 @@ int main(int argc, char** argv) {
   c_image.pixels = image.pixels.data();
   c_image.width = image.width;
   c_image.height = image.height;
-  const edgescout_view view{sizeof view, &c_image, c_camera, nullptr};
+  edgescout_view view{};
+  view.struct_size = sizeof view;
+  view.image = &c_image;
+  view.camera = c_camera;
   edgescout_limit limit{};
   limit.struct_size = sizeof limit;
   limit.max_seconds = 1e-9;
