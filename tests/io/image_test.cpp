@@ -1,17 +1,14 @@
 #include "host/io/image.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <fstream>
-#include <new>
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/io/collected_log.h"
 #include "tests/io/expect_input_error.h"
 #include "tests/io/gradient_image.h"
+#include "tests/io/grey_ramp.h"
 #include "tests/io/temporary_folder.h"
 
 namespace edgescout::test {
@@ -56,116 +53,6 @@ TEST(LoadImage, ConvertsColourAndLogsIt) {
   ASSERT_EQ(log.messages.size(), 1u);
   EXPECT_EQ(log.messages[0].first, LogLevel::Info);
   EXPECT_NE(log.messages[0].second.find("c.png: colour"), std::string::npos);
-}
-
-// Every grey level, with a dead and a hot pixel, as a sensor of `white` gives them.
-cv::Mat ramp(int type, double scale, double offset = 0) {
-  cv::Mat grey(50, 256, CV_8U), deep;
-  for (int y = 0; y < grey.rows; ++y)
-    for (int x = 0; x < grey.cols; ++x) grey.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(x);
-  grey.convertTo(deep, type, scale, offset);
-  return deep;
-}
-
-void expect_ramp(const Image& image, double tolerance, const std::string& what) {
-  for (int x = 0; x < image.width; ++x) EXPECT_NEAR(image.at(x, 10), x, tolerance) << what;
-}
-
-// The thresholds of edges are grey levels, so the levels must be those of the 8-bit image.
-TEST(LoadImage, GivesDeepImagesTheLevelsOfTheirEightBitVersions) {
-  const TemporaryFolder folder;
-  for (const int white : {255, 1023, 4095, 16383, 65535, 4095 * 16})
-    for (const char* name : {"deep.png", "deep.tif", "deep.pgm"}) {
-      cv::Mat deep = ramp(CV_16U, white / 255.0);
-      deep.at<std::uint16_t>(3, 3) = 0;
-      deep.at<std::uint16_t>(4, 4) = 65535;  // a hot pixel
-      cv::imwrite((folder.path() / name).string(), deep);
-      expect_ramp(load_image(folder.path() / name), 0, name + std::to_string(white));
-    }
-  for (const double white : {1.0, 255.0, 65535.0}) {
-    cv::imwrite((folder.path() / "real.tif").string(), ramp(CV_32F, white / 255));
-    expect_ramp(load_image(folder.path() / "real.tif"), 0, "real " + std::to_string(white));
-  }
-}
-
-TEST(LoadImage, LeavesHotPixelsOut) {
-  const TemporaryFolder folder;
-  const auto file = folder.path() / "hot.png";
-  const auto with_hot_pixels = [&](int count) {
-    cv::Mat deep = ramp(CV_16U, 4095 / 255.0);
-    for (int i = 0; i < count; ++i) deep.at<std::uint16_t>(20 + i / 200, i % 200) = 65535;
-    cv::imwrite(file.string(), deep);
-    return load_image(file);
-  };
-  expect_ramp(with_hot_pixels(40), 0, "0.3 %");
-  expect_ramp(with_hot_pixels(120), 0, "0.9 %");
-  EXPECT_EQ(with_hot_pixels(1000).at(255, 10), 16);  // 8 %: a bright surface
-}
-
-TEST(LoadImage, KnowsWhereASignedTypeEnds) {
-  const TemporaryFolder folder;
-  const auto file = folder.path() / "signed.tif";
-  cv::imwrite(file.string(), ramp(CV_16S, 100));
-  if (cv::imread(file.string(), cv::IMREAD_UNCHANGED).depth() != CV_16S)
-    GTEST_SKIP() << "this OpenCV writes no signed TIFF";
-  EXPECT_NEAR(load_image(file).at(255, 10), 255 * 25500.0 / 32767, 1);
-}
-
-TEST(LoadImage, SpreadsTheValuesOfAnImageWithLittleContrast) {
-  const TemporaryFolder folder;
-  for (const auto& [scale, offset] : {std::pair{20.0, 30000.0}, {2.0, 1000.0}, {0.05, -6.0}}) {
-    const bool real = offset < 0;
-    const auto file = folder.path() / (real ? "low.tif" : "low.png");
-    cv::imwrite(file.string(), ramp(real ? CV_32F : CV_16U, scale, offset));
-    const Image image = load_image(file);
-    EXPECT_NEAR(image.at(0, 10), 10, 1) << scale;
-    EXPECT_NEAR(image.at(127, 10), 10 + 235 * 127 / 255.0, 1) << scale;
-    EXPECT_NEAR(image.at(255, 10), 245, 1) << scale;
-  }
-  cv::Mat flat(20, 20, CV_16U, cv::Scalar(1000));  // noise is not enlarged
-  flat.at<std::uint16_t>(5, 5) = 1010;
-  cv::imwrite((folder.path() / "flat.png").string(), flat);
-  const Image image = load_image(folder.path() / "flat.png");
-  EXPECT_EQ(image.at(5, 5) - image.at(6, 6), 10);
-}
-
-TEST(LoadImage, TakesAStatedRange) {
-  const TemporaryFolder folder;
-  cv::imwrite((folder.path() / "deep.png").string(), ramp(CV_16U, 10, 2000));
-  cv::imwrite((folder.path() / "grey.png").string(), ramp(CV_8U, 1));
-  ImageOptions options;
-  options.scaling = GreyScaling::Quantiles;
-  expect_ramp(load_image(folder.path() / "deep.png", options), 1, "quantiles");
-  options.scaling = GreyScaling::Full;
-  EXPECT_EQ(load_image(folder.path() / "deep.png", options).at(255, 10),
-            std::lround(4550 * 255.0 / 65535));
-  options.black_white = {2000, 4550};
-  expect_ramp(load_image(folder.path() / "deep.png", options), 0, "stated");
-  options.black_white = {100, 151};
-  const Image grey = load_image(folder.path() / "grey.png", options);
-  EXPECT_EQ(grey.at(90, 10), 0);
-  EXPECT_EQ(grey.at(110, 10), 50);
-  EXPECT_EQ(grey.at(160, 10), 255);
-  options.black_white = {5, 5};
-  expect_input_error([&] { options.validate(); }, {"image_range", "black below white"});
-}
-
-TEST(LoadImage, LeavesWhatIsNoNumberBlack) {
-  const TemporaryFolder folder;
-  cv::Mat real = ramp(CV_32F, 1 / 255.0);
-  real.at<float>(3, 200) = NAN;
-  real.at<float>(4, 200) = INFINITY;
-  real.at<float>(5, 200) = -INFINITY;
-  cv::imwrite((folder.path() / "real.tif").string(), real);
-  CollectedLog log;
-  const Image image = load_image(folder.path() / "real.tif");
-  expect_ramp(image, 0, "around");
-  EXPECT_EQ(image.at(200, 3), 0);
-  EXPECT_EQ(image.at(200, 4), 255);
-  EXPECT_EQ(image.at(200, 5), 0);
-  cv::imwrite((folder.path() / "none.tif").string(), cv::Mat(20, 20, CV_32F, cv::Scalar(NAN)));
-  expect_input_error([&] { load_image(folder.path() / "none.tif"); },
-                     {"none.tif", "pixels", "none that is finite"});
 }
 
 // A colour that each pattern must find in its own places; the wrong pattern finds another grey.
@@ -302,27 +189,6 @@ TEST(LoadImage, ReadsInksAsTheColourTheyPrint) {
               light * (0.299 * (255 - 10) + 0.587 * (255 - 200) + 0.114 * (255 - 100)), 2);
 }
 
-TEST(LoadImage, RefusesHugeImagesBeforeItDecodesThem) {
-  const TemporaryFolder folder;
-  const auto refused = [&](const std::string& name, const std::string& bytes, const char* size) {
-    expect_input_error([&] { load_image(folder.write(name, bytes)); },
-                       {name, "image size", size, "268435456 pixels"});
-  };
-  refused("a.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\xff\xff\0\0\xff\xffIEND", 28),
-          "65535x65535");
-  refused("a.jpg", std::string("\xff\xd8\xff\xc0\0\x11\x08\xff\xff\x7f\xff\x03\xff\xd9", 14),
-          "32767x65535");
-  refused("a.pgm", "P5\n# a comment\n100000 3000\n255\n", "100000x3000");
-  refused("a.bmp", std::string("BM\0\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\0\0\x01\0\0\0\xff\xff", 26),
-          "65536x65536");
-  refused("a.tif",
-          std::string("II*\0\x08\0\0\0\x02\0\0\x01\x04\0\x01\0\0\0\0\0\x10\0"
-                      "\x01\x01\x03\0\x01\0\0\0\0\x10\0\0\0\0\0\0",
-                      38),
-          "1048576x4096");
-  refused("side.pgm", "P5 2000000 16 255\n", "2000000x16");
-}
-
 TEST(LoadImage, ReadsTheFirstOfSeveralPagesAndSaysSo) {
   const TemporaryFolder folder;
   cv::imwritemulti((folder.path() / "pages.tif").string(),
@@ -346,72 +212,6 @@ TEST(LoadImage, TakesTheWhiteThatPortableFilesState) {
   EXPECT_EQ(middle("P5 16 16 1000\n", two), 128);
   EXPECT_EQ(middle("P5 16 16 255\n", "\x32"), 50);
   EXPECT_EQ(middle("P2 16 16 100\n", "50 "), 127);  // OpenCV scales text itself
-}
-
-TEST(LoadImage, RejectsTinyImages) {
-  const TemporaryFolder folder;
-  for (auto [width, height] : {std::pair{1, 1}, {15, 100}, {100, 15}}) {
-    save_png(gradient_image(width, height), folder.path() / "tiny.png");
-    expect_input_error(
-        [&] { load_image(folder.path() / "tiny.png"); },
-        {"tiny.png", "image size", std::to_string(width) + "x" + std::to_string(height), "16x16"});
-  }
-}
-
-TEST(LoadImage, RejectsWhatIsNoImage) {
-  const TemporaryFolder folder;
-  expect_input_error([&] { load_image(folder.path() / "none.png"); }, {"none.png", "No such file"});
-  expect_input_error([&] { load_image(folder.path()); }, {"a folder"});
-  expect_input_error([&] { load_image(folder.write("empty.png", "")); }, {"empty.png", "empty"});
-  expect_input_error([&] { load_image(folder.write("text.png", "this is no image\n")); },
-                     {"text.png", "no image decoder"});
-}
-
-// Limits the memory that the process may allocate in addition to its present memory.
-class MemoryLimit {
- public:
-  explicit MemoryLimit(rlim_t more_bytes) {
-    rlim_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    ::getrlimit(RLIMIT_AS, &old_);
-    const rlimit now{pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + more_bytes,
-                     old_.rlim_max};
-    ::setrlimit(RLIMIT_AS, &now);
-  }
-  MemoryLimit(const MemoryLimit&) = delete;
-  MemoryLimit& operator=(const MemoryLimit&) = delete;
-  ~MemoryLimit() { ::setrlimit(RLIMIT_AS, &old_); }
-
- private:
-  rlimit old_{};
-};
-
-TEST(LoadImage, DistinguishesLackOfMemoryFromABadImage) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers need memory of their own";
-#endif
-  const TemporaryFolder folder;
-  save_png(Image{8000, 8000, std::vector<std::uint8_t>(8000 * 8000, 128)},
-           folder.path() / "large.png");
-  EXPECT_EQ(load_image(folder.path() / "large.png").width, 8000);
-  const MemoryLimit limit(32 << 20);  // half of the pixels
-  expect_input_error([&] { load_image(folder.path() / "large.png"); }, {"large.png", "memory"});
-}
-
-TEST(LoadImage, RejectsImagesCutShort) {
-  const TemporaryFolder folder;
-  cv::Mat noise(64, 64, CV_8U);
-  cv::randu(noise, 0, 255);
-  for (const char* name : {"x.png", "x.jpg", "x.pgm", "x.bmp"}) {
-    cv::imwrite((folder.path() / name).string(), noise);
-    EXPECT_EQ(load_image(folder.path() / name).width, 64);
-    const std::string whole = content_of(folder.path() / name);
-    for (std::size_t i = 0; i < 20; ++i) {
-      const auto cut = folder.write(std::string("cut-") + name,
-                                    std::string_view(whole).substr(0, whole.size() * i / 20));
-      expect_input_error([&] { load_image(cut); }, {name});
-    }
-  }
 }
 
 TEST(SavePng, WritesRedGreenBlueInThisOrder) {
