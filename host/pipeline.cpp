@@ -5,6 +5,7 @@
 #include "host/detect/detect.h"
 #include "host/detect/join_views.h"
 #include "host/detect/support_views.h"
+#include "host/enlarged_view.h"
 #include "host/io/depth_registration.h"
 #include "host/io/image.h"
 #include "host/register/measured_depth.h"
@@ -65,6 +66,13 @@ std::vector<EdgeModel> models_of(std::span<const TemplateSet> sets) {
 
 namespace {
 
+// The options for enlarged images.
+DetectOptions enlarged(DetectOptions options, int factor) {
+  ImageRegion& within = options.scan.within;
+  for (double* const px : {&within.x, &within.y, &within.width, &within.height}) *px *= factor;
+  return options;
+}
+
 // The options for a view whose world becomes its camera frame.
 DetectOptions in_camera_frame(DetectOptions options, const Se3& camera_from_world) {
   Se3& prior_from_world = options.scan.world.prior_from_world;
@@ -91,12 +99,16 @@ Detections detect_objects(const ObjectView& prepared, std::span<const TemplateSe
   if (trace) *trace = {};
   Detections result;
   Stopwatch watch(result.stages, backend);
-  ObjectView view = prepared;
+  const int factor = enlargement_for(sets, {&prepared, 1}, options.detect.enlarge_below_px);
+  ObjectView view = enlarged({&prepared, 1}, factor, backend, options.edges)[0];
+  watch.lap("enlargement");
   add_tensors(view, sets, backend, options.tensor);
   view.camera_from_world = Se3{};  // one view: its camera frame is the world
-  const DetectOptions in_camera = in_camera_frame(options.detect, prepared.camera_from_world);
+  const DetectOptions in_camera =
+      in_camera_frame(enlarged(options.detect, factor), prepared.camera_from_world);
   watch.lap("tensors");
-  if (trace) trace->view = view, trace->world = in_camera.scan.world;
+  if (trace)
+    trace->view = view, trace->camera = prepared.camera, trace->world = in_camera.scan.world;
   std::vector<PoseEstimate> candidates;
   for (std::size_t object = 0; object < sets.size(); ++object)
     for (PoseEstimate& candidate :
@@ -121,19 +133,21 @@ Detections detect_jointly(std::span<const ObjectView> prepared, std::span<const 
   const TimeLimit limit = latched(options.limit);
   Detections result;
   Stopwatch watch(result.stages, backend);
-  std::vector<ObjectView> views(prepared.begin(), prepared.end());
+  const int factor = enlargement_for(sets, prepared, options.detect.enlarge_below_px);
+  std::vector<ObjectView> views = enlarged(prepared, factor, backend, options.edges);
+  watch.lap("enlargement");
   for (ObjectView& view : views) add_tensors(view, sets, backend, options.tensor);
   watch.lap("tensors");
+  const DetectOptions detect = enlarged(options.detect, factor);
   Grid<std::vector<PoseEstimate>> candidates(views.size(), sets.size());
   for (std::size_t v = 0; v < views.size(); ++v) {
     const std::vector<ObjectView> others = all_but(views, v);
     for (std::size_t object = 0; object < sets.size(); ++object)
-      candidates(v, object) = find_candidates(
-          {sets[object], views[v], others, backend, &watch, &limit}, {}, options.detect);
+      candidates(v, object) =
+          find_candidates({sets[object], views[v], others, backend, &watch, &limit}, {}, detect);
   }
   const std::vector<EdgeModel> models = models_of(sets);
-  result.detections =
-      join_views({models, views, backend, &limit}, sets, candidates, options.detect);
+  result.detections = join_views({models, views, backend, &limit}, sets, candidates, detect);
   watch.lap("joint refinement");
   result.completion = completion_under(limit);
   return result;

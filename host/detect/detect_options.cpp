@@ -77,6 +77,10 @@ void describe_region(ImageRegion& region, OptionVisitor& visit) {
 
 void describe(DetectOptions& o, OptionVisitor& visit) {
   describe_search(o, visit);
+  visit.number({"enlarge-below",
+                "Images in which an object spans fewer pixels, in the middle of its distances, are "
+                "enlarged twice before the search. 0: never"},
+               o.enlarge_below_px, 0.0, 1e6);
   visit.number(
       {"min-probability", "Poses of a lower probability are not reported", OptionLevel::Basic},
       o.min_probability, 0.0, 1.0);

@@ -41,8 +41,9 @@ bool is_copy(const ObjectPose& a, const ObjectPose& b);
 std::vector<PoseEstimate> selected_estimates(const SelectionTrace& selection);
 
 struct DetectTrace {
-  ObjectView view;                    // with tensors; its camera frame is the world
-  WorldPrior world;                   // as it was searched, for this camera frame
+  ObjectView view;   // as it was searched: perhaps enlarged, with tensors; its camera is the world
+  Camera camera;     // of the prepared view: lengths in pixels are reported in its image
+  WorldPrior world;  // as it was searched, for this camera frame
   std::vector<SearchTrace> searches;  // by object
   SelectionTrace selection;
 };

@@ -32,8 +32,9 @@ class LostPose {
            const ObjectPose& given, const DetectOptions& options, const SamePoseOptions& same)
       : scene_(scene),
         view_(scene.views[0]),
+        camera_(trace.camera),
         set_(set),
-        given_(set, view_.camera, given, same),
+        given_(set, camera_, given, same),
         options_(options),
         space_(trace.world, set.model, Se3{}),
         search_(trace.searches[std::size_t(given.object)]),
@@ -58,9 +59,8 @@ class LostPose {
   RangeReport range() const {
     const TemplateOptions& searched = set_.options;
     const ImageRegion& region = options_.scan.within;
-    const Camera& camera = view_.camera;
     const Eigen::Vector3d center_m = given_.pose().world_from_object * set_.model.center_m;
-    const Eigen::Vector2d center_px = project(camera, center_m);
+    const Eigen::Vector2d center_px = project(camera_, center_m);
     const double cosine = ViewpointIndex(set_).nearest(given_.pose().world_from_object).cosine;
     RangeReport range;
     range.distance_m = center_m.norm();
@@ -70,8 +70,8 @@ class LostPose {
     range.in_distances =
         range.distance_m >= searched.distance_min_m && range.distance_m <= searched.distance_max_m;
     range.in_viewpoints = range.viewpoint_angle_rad <= ICOSPHERE_GAP_RAD / searched.frequency;
-    range.in_region = is_between(center_px.x(), region.x, region.width, camera.width) &&
-                      is_between(center_px.y(), region.y, region.height, camera.height);
+    range.in_region = is_between(center_px.x(), region.x, region.width, camera_.width) &&
+                      is_between(center_px.y(), region.y, region.height, camera_.height);
     range.in_prior = space_.admits(given_.pose().world_from_object);
     return range;
   }
@@ -234,7 +234,8 @@ class LostPose {
   }
 
   const Scene& scene_;
-  const ObjectView& view_;
+  const ObjectView& view_;  // as it was searched
+  const Camera& camera_;    // of the image as it was given
   const TemplateSet& set_;
   const GivenPose given_;
   const DetectOptions& options_;
