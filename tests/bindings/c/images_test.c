@@ -22,9 +22,29 @@ static edgescout_image image_of(const void* pixels, int32_t format) {
                            .format = format};
 }
 
+/* The same pixels in a block of their own that begins and ends with them, at an address as odd as
+   theirs: one byte too far is found by what watches memory. */
+static edgescout_image alone(edgescout_image image, void** block) {
+  static const int pixel_bytes[] = {1, 2, 4, 3, 3, 4, 4, 1, 1, 1, 1, 2, 2, 2, 2, 6, 6, 8, 8, 2, 2};
+  const int64_t row = (int64_t)image.width * pixel_bytes[image.format];
+  const int64_t stride = image.row_stride_bytes ? image.row_stride_bytes : row;
+  const int64_t below = stride * (image.height - 1); /* of the first row */
+  const size_t odd = (uintptr_t)image.pixels & 1;
+  uint8_t* const bytes = malloc(odd + (size_t)(row + (below < 0 ? -below : below)));
+  *block = bytes;
+  uint8_t* const first = bytes + odd + (below < 0 ? -below : 0);
+  for (int64_t y = 0; y < image.height; ++y)
+    memcpy(first + y * stride, (const uint8_t*)image.pixels + y * stride, (size_t)row);
+  image.pixels = first;
+  return image;
+}
+
 static int largest_difference(const edgescout_image* image, const uint8_t* expected) {
+  void* block = NULL;
+  const edgescout_image given = alone(*image, &block);
   edgescout_picture* picture = NULL;
-  OK(es_picture_grey(image, &picture));
+  OK(es_picture_grey(&given, &picture));
+  free(block); /* read during the call alone */
   edgescout_image out = {.struct_size = sizeof out};
   OK(es_picture_get(picture, &out));
   CHECK(out.width == image->width && out.height == image->height);

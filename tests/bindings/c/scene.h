@@ -56,6 +56,7 @@ void test_versions(void);
 void test_handles(void);
 void test_nulls(void);
 void test_structs(void);
+void test_strings(void);
 void test_options(void);
 void test_images(void);
 void test_depth(void);

@@ -39,6 +39,14 @@ void test_versions(void) {
   edgescout_camera* camera = NULL;
   EXPECT(EDGESCOUT_BAD_INPUT, es_camera_load(name, NULL, &camera));
   CHECK(strlen(es_last_error()) < 4096 && strstr(es_last_error(), "..."));
+  /* It is cut between letters, not in one. */
+  for (int shift = 0; shift < 2; ++shift) {
+    for (int i = 0; i < 10000; ++i) name[i] = (i + shift) % 2 ? '\xa4' : '\xc3'; /* "\u00e4" */
+    if (shift) name[0] = 'x';
+    EXPECT(EDGESCOUT_BAD_INPUT, es_camera_load(name, NULL, &camera));
+    const char* const cut = strstr(es_last_error(), "...");
+    CHECK(cut && cut[-1] == '\xa4');
+  }
   free(name);
 }
 

@@ -15,16 +15,24 @@ namespace {
 // Without a constructor and in a fixed place: keeping a message cannot fail.
 thread_local char last_message[2048] = "";
 
+// The longest part of the text that ends with a whole letter of UTF-8, in so many bytes.
+std::size_t whole_letters(const char* text, std::size_t size) noexcept {
+  while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xc0) == 0x80) --size;
+  return size;
+}
+
 // In one line; what is too long ends in "...".
 edgescout_status keep(edgescout_status status, const char* message) noexcept {
   constexpr std::size_t room = sizeof last_message - 1;
-  const std::size_t size = std::min(std::strlen(message), room);
+  constexpr char more[] = "...";
+  std::size_t size = std::strlen(message);
+  const bool is_cut = size > room;
+  if (is_cut) size = whole_letters(message, room - std::strlen(more));
   std::memcpy(last_message, message, size);
   std::replace_if(
       last_message, last_message + size,
       [](unsigned char byte) { return byte < 0x20 || byte == 0x7f; }, ' ');
-  if (size == room) std::memcpy(last_message + room - 3, "...", 3);
-  last_message[size] = '\0';
+  std::strcpy(last_message + size, is_cut ? more : "");
   return status;
 }
 
