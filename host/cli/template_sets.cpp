@@ -8,6 +8,7 @@
 #include <iostream>
 #include <optional>
 
+#include "host/active/scout.h"
 #include "host/cli/common_arguments.h"
 #include "host/cli/progress.h"
 #include "host/cli/symmetry_arguments.h"
@@ -109,9 +110,10 @@ TemplateOptions with_distances(const TemplateOptions& options, double diameter_m
 
 // The progress is shown from the first views on: templates that are read have none.
 CachedTemplates templates_of(const Object& object, const TemplateOptions& options, Backend& backend,
-                             TemplateCache& cache) {
+                             TemplateCache& cache, const std::function<bool()>& cancelled) {
   std::optional<Progress> progress;
   return cache.get(object, options, backend, [&](int done, int all) {
+    if (cancelled && cancelled()) throw Cancelled();
     if (!progress)
       progress.emplace("templates of " + object.mesh.name, 100, std::cerr, stderr_is_terminal());
     progress->move_to(100 * done / all);
@@ -166,7 +168,7 @@ DistanceRange searched_distances(const KnownModels& known, const TemplateOptions
 
 LoadedTemplates template_sets_of(const KnownModels& known, const TemplateOptions& options,
                                  const SearchedImages& images, Backend& backend,
-                                 TemplateCache cache) {
+                                 TemplateCache cache, const std::function<bool()>& cancelled) {
   const Camera& camera = images.camera;
   LoadedTemplates loaded{known.sets, known.origins};
   for (const TemplateSet& set : known.sets) check_size(set.model.mesh, set.options, camera);
@@ -174,7 +176,7 @@ LoadedTemplates template_sets_of(const KnownModels& known, const TemplateOptions
     check_size(object.mesh, with_distances(options, object.mesh.diameter_m, images), camera);
   for (const Object& object : known.objects) {
     CachedTemplates found = templates_of(
-        object, with_distances(options, object.mesh.diameter_m, images), backend, cache);
+        object, with_distances(options, object.mesh.diameter_m, images), backend, cache, cancelled);
     loaded.origins.push_back({object.id, found.are_cached ? "cache" : "built", found.seconds});
     loaded.sets.push_back(std::move(found.set));
   }

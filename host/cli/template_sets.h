@@ -55,9 +55,10 @@ struct LoadedTemplates {
 
 // Reads the missing templates from the cache or builds them, and shows the progress on standard
 // error. Logs the size of every object, the range of its distances and where its templates come
-// from, and warns of meshes with defects. Distances left at 0: as searched_distances.
+// from, and warns of meshes with defects. Distances left at 0: as searched_distances. Cancelled
+// (active/scout.h): `cancelled`, which is asked between views, returned true.
 LoadedTemplates template_sets_of(const KnownModels& known, const TemplateOptions& options,
                                  const SearchedImages& images, Backend& backend,
-                                 TemplateCache cache);
+                                 TemplateCache cache, const std::function<bool()>& cancelled = {});
 
 }  // namespace edgescout

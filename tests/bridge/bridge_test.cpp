@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "tests/bridge/tested_bridge.h"
 #include "tests/io/collected_log.h"
 
@@ -195,6 +197,40 @@ TEST(Bridge, PosesMayBeInTheWorld) {
   EXPECT_EQ(tested.results.overlays[0].encoding, "rgb8");
   EXPECT_EQ(tested.results.overlays[0].header.frame_id, "camera");
   EXPECT_EQ(tested.results.overlays[0].data.size(), 3u * 320 * 240);
+}
+
+TEST(Bridge, StopsWhileTemplatesAreMade) {
+  const edgescout::test::CollectedLog log;
+  TestedBridge tested;
+  bool were_cancelled = true;
+  tested.while_working = [&] {
+    were_cancelled = tested.are_cancelled();
+    tested.bridge.stop();
+    if (tested.are_cancelled()) throw Cancelled();
+  };
+  tested.give_info();
+  tested.give_image();
+  tested.bridge.work(0);
+  EXPECT_FALSE(were_cancelled);
+  EXPECT_TRUE(tested.results.detections.empty());
+  EXPECT_EQ(tested.count("images without a result"), 0u);
+  EXPECT_TRUE(log.messages.empty());
+}
+
+TEST(Bridge, StopsWhileItWaitsForTf) {
+  BridgeOptions options = quick();
+  options.world_frame = "world";
+  options.tf_seconds = 3600;
+  TestedBridge tested(options);
+  tested.give_info();
+  tested.give_image();
+  std::thread stopping([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    tested.bridge.stop();
+  });
+  tested.bridge.work(0);
+  stopping.join();
+  EXPECT_TRUE(tested.results.detections.empty());
 }
 
 TEST(Bridge, StopsWorkInProgress) {

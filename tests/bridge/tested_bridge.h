@@ -38,11 +38,13 @@ struct TestedBridge {
   Bridge bridge;
   int template_calls = 0;
   std::function<void()> while_working;  // called where templates are made
+  IsCancelled are_cancelled;            // as the source of templates was told
 
   explicit TestedBridge(const BridgeOptions& options = quick())
       : bridge(
-            [this](const Camera&) {
+            [this](const Camera&, const IsCancelled& is_cancelled) {
               ++template_calls;
+              are_cancelled = is_cancelled;
               if (while_working) while_working();
               return small_world().sets;
             },

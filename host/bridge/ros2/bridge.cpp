@@ -104,7 +104,10 @@ void Bridge::take(const msg::TFMessage& transforms, bool is_static) {
   diagnostics_.problem("tf message", refused.front());
 }
 
-void Bridge::stop() { inbox_.stop(); }
+void Bridge::stop() {
+  inbox_.stop();
+  tf_.stop_waiting();
+}
 
 TimeLimit Bridge::limit_of(double max_seconds) const {
   constexpr double longest_s = 1e6;  // also of a request, which may hold any number
@@ -267,6 +270,7 @@ bool Bridge::detect_without_request(const TakenImage& image) {
           diagnostics_.solved(search_subject);
         },
         [&](const std::string& why) {
+          if (is_stopped()) return;  // not what the image made the library say
           diagnostics_.count("images without a result");
           diagnostics_.problem(why.starts_with("tf:") ? tf_subject : search_subject, why);
         });

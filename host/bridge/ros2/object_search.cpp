@@ -7,9 +7,10 @@
 
 namespace edgescout::ros2 {
 
-std::span<const TemplateSet> ObjectSearch::sets(const Camera& camera) {
+std::span<const TemplateSet> ObjectSearch::sets(const Camera& camera,
+                                                const IsCancelled& is_cancelled) {
   if (sets_.empty()) {
-    sets_ = templates_(camera);
+    sets_ = templates_(camera, is_cancelled);
     models_ = models_of(sets_);
     names_ = class_names(sets_);
   }
@@ -24,7 +25,7 @@ ObjectView ObjectSearch::prepared(const CameraView& view, const PipelineOptions&
 }
 
 Detections ObjectSearch::in_image(const CameraView& view, const TimeLimit& limit) {
-  sets(view.camera);
+  sets(view.camera, limit.cancelled);
   PipelineOptions options = options_;
   options.limit = limit;
   last_view_ = prepared(view, options);
@@ -66,7 +67,7 @@ Detections ObjectSearch::in_views(std::span<const CameraView> views,
                                   std::span<const std::uint64_t> object_ids,
                                   const TimeLimit& limit) {
   if (views.empty()) throw InputError("request", "cameras", "none", "at least one");
-  sets(views[0].camera);
+  sets(views[0].camera, limit.cancelled);
   const Chosen* some = object_ids.empty() ? nullptr : &chosen(object_ids);
   PipelineOptions options = options_;
   options.limit = limit;

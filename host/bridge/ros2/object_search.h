@@ -17,8 +17,12 @@
 
 namespace edgescout::ros2 {
 
-// Reads or builds the templates for images of a camera: default distances depend on it.
-using TemplateSource = std::function<std::vector<TemplateSet>(const Camera&)>;
+using IsCancelled = std::function<bool()>;
+
+// Reads or builds the templates for images of a camera: default distances depend on it. May throw
+// Cancelled where it is.
+using TemplateSource =
+    std::function<std::vector<TemplateSet>(const Camera&, const IsCancelled& is_cancelled)>;
 
 struct CameraView {
   Image image;
@@ -33,7 +37,7 @@ class ObjectSearch {
       : templates_(std::move(templates)), backend_(backend), options_(options) {}
 
   // The templates of all objects, made at the first call.
-  std::span<const TemplateSet> sets(const Camera& camera);
+  std::span<const TemplateSet> sets(const Camera& camera, const IsCancelled& is_cancelled);
   DetectedObjects objects() const { return {sets_, names_}; }
   Backend& backend() { return backend_; }
 

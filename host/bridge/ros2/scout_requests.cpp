@@ -22,8 +22,8 @@ msg::ScoutProposeResult ScoutRequests::propose(const msg::ScoutProposeRequest& r
     throw InputError("scout", views_.empty() ? "views" : "world_frame", "nothing",
                      "the options views and world_frame");
   if (!scout_ || request.restart)
-    scout_ =
-        std::make_unique<Scout>(search_.sets(camera), camera, views_, options_, search_.backend());
+    scout_ = std::make_unique<Scout>(search_.sets(camera, options_.cancelled), camera, views_,
+                                     options_, search_.backend());
   msg::ScoutProposeResult result{.success = true};
   const std::optional<ScoutDecision> decision = scout_->propose();
   result.end = to_string(scout_->state().end);

@@ -51,7 +51,7 @@ std::vector<std::string> TfBuffer::add(const msg::TFMessage& message, bool is_st
       }
     }
   }
-  added_.notify_all();
+  changed_.notify_all();
   return refused;
 }
 
@@ -142,8 +142,8 @@ Se3 TfBuffer::at(const Way& way, std::size_t links, std::int64_t stamp_ns) {
   return pose;
 }
 
-Se3 TfBuffer::lookup_locked(const std::string& target, const std::string& source,
-                            std::int64_t stamp_ns) const {
+Se3 TfBuffer::between_locked(const std::string& target, const std::string& source,
+                             std::int64_t stamp_ns) const {
   require_known(target);
   require_known(source);
   const Way of_target = way_up(target), of_source = way_up(source);
@@ -168,25 +168,39 @@ Se3 TfBuffer::lookup_locked(const std::string& target, const std::string& source
                    "transforms between them");
 }
 
+Se3 TfBuffer::lookup_locked(const std::string& target, const std::string& source,
+                            const msg::Time& stamp) const {
+  const std::string to = plain(target), from = plain(source);
+  return to == from ? Se3{} : between_locked(to, from, nanoseconds(stamp));
+}
+
 Se3 TfBuffer::lookup(const std::string& target, const std::string& source,
                      const msg::Time& stamp) const {
   const std::scoped_lock lock(mutex_);
-  const std::string to = plain(target), from = plain(source);
-  return to == from ? Se3{} : lookup_locked(to, from, nanoseconds(stamp));
+  return lookup_locked(target, source, stamp);
 }
 
+// Locked from a lookup to its wait: nothing that is added between goes unnoticed.
 Se3 TfBuffer::lookup(const std::string& target, const std::string& source, const msg::Time& stamp,
                      double seconds) const {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-  while (true) {
+  std::unique_lock lock(mutex_);
+  for (bool is_late = false; waits_ && !is_late;) {
     try {
-      return lookup(target, source, stamp);
+      return lookup_locked(target, source, stamp);
     } catch (const InputError&) {
-      std::unique_lock lock(mutex_);
-      if (added_.wait_until(lock, end) == std::cv_status::timeout) break;
+      is_late = changed_.wait_until(lock, end) == std::cv_status::timeout;
     }
   }
-  return lookup(target, source, stamp);
+  return lookup_locked(target, source, stamp);
+}
+
+void TfBuffer::stop_waiting() {
+  {
+    const std::scoped_lock lock(mutex_);
+    waits_ = false;
+  }
+  changed_.notify_all();
 }
 
 }  // namespace edgescout::ros2

@@ -30,6 +30,8 @@ class TfBuffer {
   // The same; waits so long for what is missing.
   Se3 lookup(const std::string& target, const std::string& source, const msg::Time& stamp,
              double seconds) const;
+  // No lookup waits from now on.
+  void stop_waiting();
 
   std::string known_frames() const;  // "base, camera .."; "none"
 
@@ -54,13 +56,16 @@ class TfBuffer {
   std::string known_frames_locked() const;
   Way way_up(const std::string& frame) const;
   Se3 lookup_locked(const std::string& target, const std::string& source,
-                    std::int64_t stamp_ns) const;
+                    const msg::Time& stamp) const;
+  Se3 between_locked(const std::string& target, const std::string& source,
+                     std::int64_t stamp_ns) const;
   static Se3 at(const Way& way, std::size_t links, std::int64_t stamp_ns);
 
   std::int64_t kept_ns_;
   mutable std::mutex mutex_;
-  mutable std::condition_variable added_;
+  mutable std::condition_variable changed_;
   std::map<std::string, Link> links_;  // by child
+  bool waits_ = true;
 };
 
 }  // namespace edgescout::ros2

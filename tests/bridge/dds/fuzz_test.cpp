@@ -28,7 +28,7 @@ struct NoResults : Outbox {
 // A bridge that reads every message and has no models: detection itself is not the subject.
 struct FuzzedBridge {
   NoResults results;
-  Bridge bridge{[](const Camera&) -> std::vector<TemplateSet> {
+  Bridge bridge{[](const Camera&, const IsCancelled&) -> std::vector<TemplateSet> {
                   throw InputError("models", "files", "none", "some");
                 },
                 *small_world().backend, options(), results};

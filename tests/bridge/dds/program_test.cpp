@@ -7,6 +7,7 @@
 #include <optional>
 #include <sstream>
 
+#include "host/active/scout.h"
 #include "host/bridge/ros2/depth_message.h"
 #include "host/bridge/ros2/program/program_options.h"
 #include "host/cli/template_sets.h"
@@ -65,6 +66,17 @@ TEST(Program, DetectsInImagesAndNamesASecondCamera) {
     return peer.status && peer.status->message.find("/image: found 2 publishers") == 0;
   })) << peer.diagnostics();
   EXPECT_EQ(program.stop(), 0) << program.log();
+}
+
+TEST(Program, MakesNoFurtherTemplatesOnceItEnds) {
+  const TemporaryFolder folder;
+  ProgramOptions options;
+  read_options(bracket({"--template-cache", folder.path() / "cache"}), options);
+  const SearchedImages searched{small_world().camera(), {}, {}};
+  EXPECT_THROW(template_sets_of(load_models(options.models), options.templates, searched,
+                                *small_world().backend, make_template_cache(options.models.cache),
+                                [] { return true; }),
+               Cancelled);
 }
 
 TEST(Program, DetectsWithDepthWhatTheCommandLineDoes) {

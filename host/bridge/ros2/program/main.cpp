@@ -64,10 +64,11 @@ TemplateSource template_source(const ProgramOptions& options, Backend& backend) 
   KnownModels models = load_models(options.models);
   for (const Object& object : models.objects)
     require_distances_of_size(object.mesh.name, object.mesh.diameter_m, options.templates);
-  return [known = std::move(models), &options, &backend](const Camera& camera) {
+  return [known = std::move(models), &options, &backend](const Camera& camera,
+                                                         const IsCancelled& is_cancelled) {
     const SearchedImages searched{camera, {}, {}};
     return template_sets_of(known, options.templates, searched, backend,
-                            make_template_cache(options.models.cache))
+                            make_template_cache(options.models.cache), is_cancelled)
         .sets;
   };
 }
