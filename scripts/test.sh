@@ -8,8 +8,9 @@
 #                               kernels alone without Vulkan
 #   scripts/test.sh --long      clang-tidy on all files; the whole suite built by clang 16, under
 #                               the address and undefined-behaviour sanitizers, and under the thread
-#                               sanitizer; the fuzzer for 30 s per reader; the packages in a fresh
-#                               Debian. Prints a line for docs/reliability.md
+#                               sanitizer; the C interface under valgrind; the fuzzer for 30 s per
+#                               reader; the packages in a fresh Debian. Prints a line for
+#                               docs/reliability.md
 #   scripts/test.sh PRESET...   the whole suite in each of these presets, nothing else
 # A step that fails does not keep the others from running.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -84,6 +85,7 @@ long_run() {
   step "clang 16: build and tests" build_and_test clang
   step "address sanitizer: build and tests" build_and_test asan
   step "thread sanitizer: build and tests" build_and_test tsan
+  step "C interface under valgrind" scripts/valgrind.sh
   step "fuzzer: 30 s per reader" scripts/fuzz.sh 30
   step "packages in a fresh Debian" scripts/packages_test.sh
 }
