@@ -42,7 +42,7 @@ std::string tiles(const BatchTables& tables, const BatchSummary& summary) {
   html += tile(thousands(tables.rows.size()), "poses");
   double seconds = 0;
   for (const StageSeconds& stage : tables.stages) seconds += stage.seconds;
-  if (tables.done > 0) html += tile(fmt::format("{:.2f} s", seconds / tables.done), "an image");
+  if (tables.done > 0) html += tile(fmt::format("{:.2f} s", seconds / tables.done), "per image");
   return html + "</div>";
 }
 
@@ -94,7 +94,7 @@ std::string histogram(const BatchTables& tables) {
 std::string stage_table(const BatchTables& tables) {
   double longest = 1e-9;
   for (const StageSeconds& stage : tables.stages) longest = std::max(longest, stage.seconds);
-  std::string html = "<table class=stages><tr><th>stage<th class=figure>ms an image<th>";
+  std::string html = "<table class=stages><tr><th>stage<th class=figure>ms per image<th>";
   for (const StageSeconds& stage : tables.stages)
     html += fmt::format(
         "<tr><td>{}<td class=figure>{:.1f}<td><span class=length style='width:{:.1f}%'></span>",

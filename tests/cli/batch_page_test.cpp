@@ -68,6 +68,8 @@ TEST(BatchPage, ListsWhatFailedFirst) {
   EXPECT_NE(page.find("0.30 to 0.35: 1 poses"), std::string::npos);
   EXPECT_NE(page.find("0.95 to 1.00: 0 poses"), std::string::npos);
   EXPECT_NE(page.find("<td>scan<td class=figure>500.0"), std::string::npos) << "mean of two images";
+  EXPECT_NE(page.find("<th class=figure>ms per image<th>"), std::string::npos);
+  EXPECT_NE(page.find(">per image<"), std::string::npos);
   EXPECT_EQ(page.find("cut short"), std::string::npos);
 }
 
