@@ -162,8 +162,17 @@ class CameraFinder {
 
 std::vector<FileCamera> find_cameras(const std::string& text, const std::string& source,
                                      bool is_json) {
-  return with_errors_of_one_line(
-      [&] { return CameraFinder(source).find(parse_camera_tree(text, source, is_json)); });
+  return with_errors_of_one_line([&] {
+    try {
+      return CameraFinder(source).find(
+          with_common_fields(parse_camera_tree(text, source, is_json), source));
+    } catch (const InputError&) {
+      if (const std::optional<std::string> program = program_that_is_not_read(text))
+        throw InputError(source, "file", "a calibration of " + *program,
+                         "its export in the format of OpenCV");
+      throw;
+    }
+  });
 }
 
 bool all_same(const std::vector<FileCamera>& cameras) {

@@ -21,10 +21,10 @@ struct FileCamera {
 };
 
 // Reads all cameras of a file: ROS, OpenCV (YAML, XML, JSON), Kalibr, EuRoC, BOP, MATLAB (JSON),
-// Open3D, MegaPose, RealSense, Azure Kinect, COLMAP, cam_K.txt and similar. Cameras have pixel
-// centres at integers, with the ROI and the binning of the file applied. InputError naming file and
-// field: no camera, a field that looks like a lens or a region and is not understood, a value that
-// is not finite or has another form.
+// Open3D, MegaPose, RealSense, Azure Kinect, COLMAP, OpenSfM, AliceVision, Project Aria, DSO,
+// cam_K.txt and similar. Cameras have pixel centres at integers, with the ROI and the binning of
+// the file applied. InputError naming file and field: no camera, a field that looks like a lens or
+// a region and is not understood, a value that is not finite or has another form.
 std::vector<FileCamera> load_cameras(const std::filesystem::path& file);
 // Reads the cameras of a file's content. `source` names it in errors.
 std::vector<FileCamera> cameras_in(const std::string& text, const std::string& source);

@@ -64,7 +64,7 @@ void read_colmap(CameraFields& fields, Camera& camera) {
 // BOP's cam_model: the names of Meta's hand tracking toolkit, with pixel centres at integers.
 void read_cam_model(CameraFields& fields, Camera& camera) {
   const JsonField list = *fields.take({"projectionparams"});
-  const auto name = fields.take({"projectionmodeltype"});
+  const auto name = fields.take({"projectionmodeltype", "projectionmodel"});
   if (!name)
     throw InputError(fields.source(), fields.at("projection_model_type"), "nothing", "a model");
   const std::vector<double> parameters = numbers_in_field(list);
@@ -77,6 +77,8 @@ void read_cam_model(CameraFields& fields, Camera& camera) {
       {"kannalabrandt", {LensModel::Fisheye, false, 4}},
       {"kannalabrandtk3", {LensModel::Fisheye, false, 4}},
       {"fisheye624", {LensModel::Fisheye, false, 12}},
+      {"fisheye62", {LensModel::Fisheye, false, 8}},
+      {"fisheyeradtanthinprism", {LensModel::Fisheye, false, 12}},  // Project Aria's name
       {"oculusvisionfisheye624", {LensModel::Fisheye, false, 12}}};
   std::string word = plain_name(text_in_field(*name));
   if (word.starts_with("cameramodeltype")) word.erase(0, std::string("cameramodeltype").size());

@@ -1,6 +1,7 @@
 // Internal to host/io: makes cameras from the fields of a file.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,12 @@ Camera read_camera(CameraFields& fields);
 void read_size(CameraFields& fields, Camera& camera);
 void read_intrinsics(CameraFields& fields, Camera& camera);
 void read_roi_and_binning(CameraFields& fields, Camera& camera);
+
+// The cameras of OpenSfM, AliceVision (Meshroom) and Project Aria in the fields and units of other
+// files. Other trees come back unchanged. InputError: a lens model that is not read.
+nlohmann::json with_common_fields(nlohmann::json tree, const std::string& source);
+// The program that wrote a text which no reader understands. Empty: it is not known.
+std::optional<std::string> program_that_is_not_read(const std::string& text);
 
 // A model's name with one list of all its parameters: COLMAP's, BOP's cam_model. False: the fields
 // are of another form.

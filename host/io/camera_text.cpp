@@ -185,6 +185,8 @@ json kitti_cameras(const std::vector<std::string>& lines) {
 json text_camera_tree(std::string_view text, const std::string& source) {
   const std::vector<std::string> lines = lines_of(text);
   if (lines.empty()) return nullptr;
+  if (json tree = dso_camera(lines, source); !tree.is_null()) return tree;
+  if (json tree = halcon_camera(lines, source); !tree.is_null()) return tree;
   if (json tree = numbers_alone(lines); !tree.is_null()) return tree;
   if (json tree = kalibr_results(lines, source); !tree.is_null()) return tree;
   if (json tree = colmap_cameras(lines); !tree.is_null()) return tree;

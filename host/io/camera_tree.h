@@ -21,6 +21,10 @@ nlohmann::json xml_camera_tree(std::string_view text, const std::string& source)
 // -c`, and INI. Null: the text is none of these.
 nlohmann::json text_camera_tree(std::string_view text, const std::string& source);
 
+// The camera.txt of DSO and TUM's monoVO data, and the camera parameters of HALCON (file or tuple),
+// as lines without empty ones. Null: another text. InputError: a model that is not read.
+nlohmann::json dso_camera(const std::vector<std::string>& lines, const std::string& source);
+nlohmann::json halcon_camera(const std::vector<std::string>& lines, const std::string& source);
 // Kalibr's results-cam.txt and results-imucam.txt, as lines without empty ones. Null: neither.
 nlohmann::json kalibr_results(const std::vector<std::string>& lines, const std::string& source);
 // What programs print of a camera, as lines without empty ones: a table below names (rostopic echo
