@@ -94,7 +94,7 @@ TEST_F(EnlargedTest, DepthKeepsItsValues) {
   add_depth(view, depth, part.scene.views[0].camera);
   const ObjectView enlarged_view = enlarge(view);
   const DepthImage& large = enlarged_view.depth->image;
-  for (const auto [x, y] : {std::pair{0, 0}, {17, 5}, {depth.width - 1, depth.height - 1}})
+  for (const auto& [x, y] : {std::pair{0, 0}, {17, 5}, {depth.width - 1, depth.height - 1}})
     for (int i = 0; i < 4; ++i)
       EXPECT_EQ(large.at(2 * x + i % 2, 2 * y + i / 2), depth.at(x, y)) << x << " " << y;
 }

@@ -23,8 +23,9 @@ void expect_sound(const ImageResult& result, const fs::path& image) {
     stages.push_back(stage.name);
     EXPECT_GE(stage.seconds, 0) << stage.name;
   }
-  EXPECT_EQ(stages, (std::vector<std::string>{"decode", "undistort", "edges", "tensors", "scan",
-                                              "coarse", "medium", "fine", "selection"}));
+  EXPECT_EQ(stages,
+            (std::vector<std::string>{"decode", "undistort", "edges", "enlargement", "tensors",
+                                      "scan", "coarse", "medium", "fine", "selection"}));
   ASSERT_FALSE(result.detections.empty());
   for (std::size_t i = 0; i < result.detections.size(); ++i) {
     const Detection& d = result.detections[i];
