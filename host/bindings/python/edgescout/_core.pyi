@@ -151,6 +151,7 @@ class DetectOptions:
     medium_poses_joint: int
     support_views: int
     candidates: int
+    enlarge_below: float
     min_probability: float
     region_x: float
     region_y: float
@@ -170,10 +171,11 @@ class DetectOptions:
         template_points: int = ..., anchor_step: int = ..., scan_hits: int = ...,
         coarse_poses: int = ..., medium_poses: int = ..., coarse_poses_joint: int = ...,
         medium_poses_joint: int = ..., support_views: int = ..., candidates: int = ...,
-        min_probability: float = ..., region_x: float = ..., region_y: float = ...,
-        region_width: float = ..., region_height: float = ..., restart_rotation: float = ...,
-        max_detections: int = ..., penetration: float = ..., world_box: Sequence[float] = ...,
-        world_plane: Sequence[float] = ..., plane_tolerance: float = ..., max_claimed: float = ...
+        enlarge_below: float = ..., min_probability: float = ..., region_x: float = ...,
+        region_y: float = ..., region_width: float = ..., region_height: float = ...,
+        restart_rotation: float = ..., max_detections: int = ..., penetration: float = ...,
+        world_box: Sequence[float] = ..., world_plane: Sequence[float] = ...,
+        plane_tolerance: float = ..., max_claimed: float = ...
     ) -> None: ...
     def copy(self) -> DetectOptions: ...
     def help(self) -> Dict[str, str]: ...
@@ -293,6 +295,7 @@ class TrackOptions:
     medium_poses_joint: int
     support_views: int
     candidates: int
+    enlarge_below: float
     min_probability: float
     region_x: float
     region_y: float
@@ -314,10 +317,10 @@ class TrackOptions:
         smoothing_variance: float = ..., cap: float = ..., template_points: int = ...,
         anchor_step: int = ..., scan_hits: int = ..., coarse_poses: int = ...,
         medium_poses: int = ..., coarse_poses_joint: int = ..., medium_poses_joint: int = ...,
-        support_views: int = ..., candidates: int = ..., min_probability: float = ...,
-        region_x: float = ..., region_y: float = ..., region_width: float = ...,
-        region_height: float = ..., restart_rotation: float = ..., max_detections: int = ...,
-        penetration: float = ..., world_box: Sequence[float] = ...,
+        support_views: int = ..., candidates: int = ..., enlarge_below: float = ...,
+        min_probability: float = ..., region_x: float = ..., region_y: float = ...,
+        region_width: float = ..., region_height: float = ..., restart_rotation: float = ...,
+        max_detections: int = ..., penetration: float = ..., world_box: Sequence[float] = ...,
         world_plane: Sequence[float] = ..., plane_tolerance: float = ..., max_claimed: float = ...
     ) -> None: ...
     def copy(self) -> TrackOptions: ...
