@@ -9,8 +9,6 @@ static struct scene scene;
 static edgescout_options* options;
 static edgescout_scout* scout;
 
-/* Each calls a function with `text` in place of one string, of which nothing is kept. */
-#define WITH(name) static edgescout_status name(const char* text)
 #define MAKING(type, call)                       \
   edgescout_##type* out = NULL;                  \
   const edgescout_status status = call;          \
@@ -18,16 +16,27 @@ static edgescout_scout* scout;
   OK(es_free(out));                              \
   return status;
 
-WITH(device) { MAKING(backend, es_backend_create(text, 0, &out)) }
-WITH(camera_file) { MAKING(camera, es_camera_load(text, NULL, &out)) }
-WITH(camera_name) {
+/* Each calls a function with `text` in place of one string, of which nothing is kept. */
+static edgescout_status device(const char* text) {
+  MAKING(backend, es_backend_create(text, 0, &out))
+}
+static edgescout_status camera_file(const char* text) {
+  MAKING(camera, es_camera_load(text, NULL, &out))
+}
+static edgescout_status camera_name(const char* text) {
   MAKING(camera, es_camera_load(EXAMPLE("visp/cube_camera.yaml"), text, &out))
 }
-WITH(picture_file) { MAKING(picture, es_picture_load(text, NULL, &out)) }
-WITH(saved_picture) { return es_picture_save_png(scene.picture, text); }
-WITH(mesh_file) { MAKING(mesh, es_mesh_load(text, "mm", &out)) }
-WITH(unit) { MAKING(mesh, es_mesh_load(EXAMPLE("parts/obj_000001.ply"), text, &out)) }
-WITH(mesh_name) {
+static edgescout_status picture_file(const char* text) {
+  MAKING(picture, es_picture_load(text, NULL, &out))
+}
+static edgescout_status saved_picture(const char* text) {
+  return es_picture_save_png(scene.picture, text);
+}
+static edgescout_status mesh_file(const char* text) { MAKING(mesh, es_mesh_load(text, "mm", &out)) }
+static edgescout_status unit(const char* text) {
+  MAKING(mesh, es_mesh_load(EXAMPLE("parts/obj_000001.ply"), text, &out))
+}
+static edgescout_status mesh_name(const char* text) {
   const double vertices_m[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   const int32_t triangles[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
   const edgescout_mesh_arrays arrays = {sizeof arrays, text, vertices_m, 4, triangles, 4};
@@ -39,9 +48,13 @@ WITH(mesh_name) {
   OK(es_free(out));
   return status;
 }
-WITH(templates_file) { MAKING(templates, es_templates_load(text, &out)) }
-WITH(saved_templates) { return es_templates_save(scene.templates, text); }
-WITH(symmetry) {
+static edgescout_status templates_file(const char* text) {
+  MAKING(templates, es_templates_load(text, &out))
+}
+static edgescout_status saved_templates(const char* text) {
+  return es_templates_save(scene.templates, text);
+}
+static edgescout_status symmetry(const char* text) {
   const edgescout_limit over = {.struct_size = sizeof over, .max_seconds = 1e-9};
   const edgescout_part part = {.struct_size = sizeof part,
                                .mesh = scene.mesh,
@@ -51,20 +64,24 @@ WITH(symmetry) {
                                .limit = &over};
   MAKING(templates, es_templates_build(&part, &out))
 }
-WITH(option_set) { return es_options_set(options, text, "0.5"); }
-WITH(option_value) { return es_options_set(options, "min-probability", text); }
-WITH(option_get) {
+static edgescout_status option_set(const char* text) {
+  return es_options_set(options, text, "0.5");
+}
+static edgescout_status option_value(const char* text) {
+  return es_options_set(options, "min-probability", text);
+}
+static edgescout_status option_get(const char* text) {
   edgescout_option out = {.struct_size = sizeof out};
   return es_options_get(options, text, &out);
 }
-WITH(reason) {
+static edgescout_status reason(const char* text) {
   edgescout_scout* const own = example_scout(&scene);
   const edgescout_status status = es_scout_unreachable(own, 0, text);
   OK(es_free(own));
   return status;
 }
-WITH(saved_state) { return es_scout_save(scout, text); }
-WITH(state_file) { return es_scout_resume(scout, text, NULL); }
+static edgescout_status saved_state(const char* text) { return es_scout_save(scout, text); }
+static edgescout_status state_file(const char* text) { return es_scout_resume(scout, text, NULL); }
 
 static const struct place {
   edgescout_status (*call)(const char* text);
