@@ -12,9 +12,9 @@
 namespace edgescout {
 
 struct DetectOptions {
-  // Objects that span fewer pixels are searched in the image enlarged twice
-  // (host/enlarged_view.h). Chosen on parts of bench/trust: docs/research/detection.md.
-  double enlarge_below_px = 110;
+  // Objects that span fewer pixels are searched in the image enlarged twice; 0: none are
+  // (host/enlarged_view.h). It helps some parts only: docs/research/detection.md.
+  double enlarge_below_px = 0;
   ScanOptions scan;
   int support_views = 4;          // other images that support the search of one (support_views.h)
   int coarse_poses = 10000;       // distinct scan hits that enter the coarse stage

@@ -135,7 +135,6 @@ struct Batch : SmallScene {
     sets.push_back(built);
     options.out = out;
     options.pipeline.detect.min_probability = 0.1;
-    options.pipeline.detect.enlarge_below_px = 0;  // edges are found once in each image
     options.pipeline.detect.coarse_poses = 200;
     options.pipeline.detect.candidates = 10;
   }

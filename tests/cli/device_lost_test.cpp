@@ -23,12 +23,12 @@ struct LostDevice : ::testing::Test {
     fs::copy_file(scene.image(), images / "a.png");
   }
   std::vector<std::string> detect(const std::vector<std::string>& more = {}) const {
-    return joined({{"detect", images, "--out", scene.out, "--device", "vulkan", "--no-overlays",
-                    "--camera", scene.camera(), "--candidates", "4"},
-                   {"--model", part_file(1), "--unit", "mm", "--viewpoints", "1",
-                    "--in-plane-steps", "12", "--distance-min", "0.27", "--distance-max", "0.33",
-                    "--coarse-poses", "50", "--enlarge-below", "0"},
-                   more});
+    return joined(
+        {{"detect", images, "--out", scene.out, "--device", "vulkan", "--no-overlays", "--camera",
+          scene.camera(), "--candidates", "4"},
+         {"--model", part_file(1), "--unit", "mm", "--viewpoints", "1", "--in-plane-steps", "12",
+          "--distance-min", "0.27", "--distance-max", "0.33", "--coarse-poses", "50"},
+         more});
   }
   // ASan insists on being first; the shim replaces two functions of the loader, none of the C
   // library.

@@ -10,10 +10,7 @@ namespace edgescout::test {
 namespace {
 
 std::vector<std::string> explain(const fs::path& input, const std::vector<std::string>& more) {
-  return joined(
-      {{"explain", input, "--device", "cpu", "--coarse-poses", "200", "--enlarge-below", "0"},
-       bracket(),
-       more});
+  return joined({{"explain", input, "--device", "cpu", "--coarse-poses", "200"}, bracket(), more});
 }
 
 // R by row and t of the true pose in an image, as --pose takes them.

@@ -37,10 +37,8 @@ struct Traced {
   }
 };
 
-// Few enough that the part is among them in the image as it is: 100 px wide.
 PipelineOptions few_poses() {
   PipelineOptions options = RenderedPart::options();
-  options.detect.enlarge_below_px = 0;
   options.detect.coarse_poses = 400;
   options.detect.medium_poses = 100;
   return options;
