@@ -1,7 +1,8 @@
 #!/bin/bash
 # Runs the tests of the C interface under valgrind: handles that are null, freed or invented,
 # structs and strings of other sizes, pixels of any layout, calls of several threads. An error or a
-# definite leak fails. Prints a line for docs/reliability.md. Needs minutes: valgrind is some 50 times slower.
+# definite leak fails. Prints a line for docs/reliability.md. Needs minutes: valgrind is some 50
+# times slower.
 #   scripts/valgrind.sh            all but the tests whose work is long (scout, tracker, memory)
 #   scripts/valgrind.sh TEST...    these; tests/bindings/c/main.c has their names
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
