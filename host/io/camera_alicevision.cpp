@@ -13,10 +13,6 @@ using nlohmann::json;
 
 namespace {
 
-double alice_number(const JsonField& object, const std::string& name) {
-  return number_in_field(object.at(name));
-}
-
 using AliceVersion = std::array<int, 3>;
 
 AliceVersion alice_version(const JsonField& root) {
@@ -32,7 +28,7 @@ AliceVersion alice_version(const JsonField& root) {
 
 // The versions of the format differ in units and in what the ratio of the pixels' sides divides.
 void set_alice_pinhole(const JsonField& camera, const AliceVersion& version, json& read) {
-  const double width = alice_number(camera, "width"), height = alice_number(camera, "height");
+  const double width = number_at(camera, "width"), height = number_at(camera, "height");
   double fx = 0, fy = 0;
   if (version < AliceVersion{1, 2, 2}) {
     const std::vector<double> focal = numbers_in_field(camera.at("pxFocalLength"));
@@ -40,8 +36,8 @@ void set_alice_pinhole(const JsonField& camera, const AliceVersion& version, jso
       camera.at("pxFocalLength").fail(std::to_string(focal.size()) + " numbers", "1 or 2");
     fx = focal.front(), fy = focal.back();
   } else {
-    const double ratio = camera.has("pixelRatio") ? alice_number(camera, "pixelRatio") : 1;
-    fx = alice_number(camera, "focalLength") / alice_number(camera, "sensorWidth") * width;
+    const double ratio = camera.has("pixelRatio") ? number_at(camera, "pixelRatio") : 1;
+    fx = number_at(camera, "focalLength") / number_at(camera, "sensorWidth") * width;
     fy = version < AliceVersion{1, 2, 5} ? fx / ratio : fx * ratio;
   }
   const std::vector<double> point = numbers_in_field(camera.at("principalPoint"));

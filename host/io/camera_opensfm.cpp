@@ -12,16 +12,12 @@ using nlohmann::json;
 
 namespace {
 
-double opensfm_number(const JsonField& object, const std::string& name) {
-  return number_in_field(object.at(name));
-}
-
 // The coefficients of these names; those that are missing are 0.
 std::vector<double> coefficients_at(const JsonField& object,
                                     const std::vector<std::string>& names) {
   std::vector<double> values;
   for (const std::string& name : names)
-    values.push_back(object.has(name) ? opensfm_number(object, name) : 0);
+    values.push_back(object.has(name) ? number_at(object, name) : 0);
   return values;
 }
 
@@ -52,22 +48,22 @@ bool is_opensfm_camera(const json& value) {
 // A fisheye camera of OpenSfM with tangential coefficients: their order is not Project Aria's.
 void require_no_tangential(const JsonField& camera) {
   for (const char* name : {"p1", "p2", "s0", "s1", "s2", "s3"})
-    if (camera.has(name) && opensfm_number(camera, name) != 0)
+    if (camera.has(name) && number_at(camera, name) != 0)
       camera.at(name).fail(
           camera.value[name].dump() + " of OpenSfM's model " + camera.at("projection_type").text(),
           "0, or a calibration with OpenSfM's model fisheye_opencv");
 }
 
 void set_from_opensfm(const JsonField& camera, json& read) {
-  const double width = opensfm_number(camera, "width"), height = opensfm_number(camera, "height");
+  const double width = number_at(camera, "width"), height = number_at(camera, "height");
   const double side = std::max(width, height);
   const bool has_axes = camera.has("focal_x");
-  read["fx"] = side * opensfm_number(camera, has_axes ? "focal_x" : "focal");
-  read["fy"] = side * opensfm_number(camera, has_axes ? "focal_y" : "focal");
+  read["fx"] = side * number_at(camera, has_axes ? "focal_x" : "focal");
+  read["fy"] = side * number_at(camera, has_axes ? "focal_y" : "focal");
   // OpenSfM has the corner of the first pixel at 0, 0.
   for (const auto& [name, written, length] :
        {std::tuple{"cx", "c_x", width}, {"cy", "c_y", height}}) {
-    const double part = camera.has(written) ? opensfm_number(camera, written) : 0;
+    const double part = camera.has(written) ? number_at(camera, written) : 0;
     if (std::abs(part) > 1)
       camera.at(written).fail(camera.value[written].dump(),
                               "a part of the longer side of the image, as OpenSfM writes it");

@@ -6,6 +6,11 @@
 
 namespace edgescout {
 
+// The number of this field. InputError: there is none.
+inline double number_at(const JsonField& object, const std::string& name) {
+  return number_in_field(object.at(name));
+}
+
 // OpenSfM: a camera, several by name, or reconstructions, whose poses and points are left out.
 bool is_of_opensfm(const nlohmann::json& tree);
 nlohmann::json opensfm_cameras(const JsonField& tree);
