@@ -102,6 +102,14 @@ def test_other_threads_run_while_an_image_is_read(large, tmp_path):
     })
 
 
+def test_other_threads_run_while_bop_files_are_read(tmp_path):
+    row = edgescout.BopResult(1, 2, 3, 0.5, np.eye(4))
+    file = tmp_path / "results.csv"
+    rows = [row] * 100_000
+    edgescout.save_bop_results(rows, file)
+    expect_other_threads_to_run({"load_bop_results": lambda: edgescout.load_bop_results(file)})
+
+
 def in_threads(works):
     """Runs each in a thread of its own; the first exception goes on."""
     errors = []

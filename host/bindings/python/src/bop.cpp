@@ -8,6 +8,9 @@ namespace edgescout::python {
 
 namespace {
 
+// Files may be large: other threads run while they are read and written.
+using Unlocked = py::call_guard<py::gil_scoped_release>;
+
 std::vector<std::string> cameras_of_scene(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder))
     throw InputError(folder.string(), "folder", "none", "a scene in BOP's layout");
@@ -46,10 +49,11 @@ void add_scenes(py::module_& module) {
             return found == scene.truth.end() ? std::vector<BopTruth>{} : found->second;
           },
           py::arg("image_id"), "True poses; empty where the scene has none.");
-  module.def("bop_cameras", &cameras_of_scene, py::arg("folder"),
+  module.def("bop_cameras", &cameras_of_scene, Unlocked(), py::arg("folder"),
              "The names of a scene's cameras; \"\" stands for that of scene_camera.json. "
              "InputError: no such folder.");
-  module.def("load_bop_scene", &load_bop_scene, py::arg("folder"), py::arg("camera_name") = "",
+  module.def("load_bop_scene", &load_bop_scene, Unlocked(), py::arg("folder"),
+             py::arg("camera_name") = "",
              "Reads scene_camera.json and, where it is there, scene_gt.json.");
 }
 
@@ -79,9 +83,9 @@ void add_results(py::module_& module) {
           "(4, 4) float64, metres.")
       .def_readonly("time_s", &BopResult::time_s, "Of all rows of the image; below 0: unknown.")
       .def_readonly("camera_name", &BopResult::camera_name, "Of a scene with several cameras.");
-  module.def("load_bop_results", &load_bop_results, py::arg("file"),
+  module.def("load_bop_results", &load_bop_results, Unlocked(), py::arg("file"),
              "Rows of a results CSV. Those that hold no pose are left out, with a warning.");
-  module.def("save_bop_results", &save_bop_results, py::arg("results"), py::arg("file"),
+  module.def("save_bop_results", &save_bop_results, Unlocked(), py::arg("results"), py::arg("file"),
              "Writes a results CSV, whole or not at all.");
 }
 

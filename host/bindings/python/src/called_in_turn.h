@@ -5,6 +5,8 @@
 #include <mutex>
 #include <type_traits>
 
+#include "host/bindings/python/src/call_lock.h"
+
 namespace edgescout::python {
 
 // Calls of several threads follow one another. What `show` returned after the last one is read
@@ -46,8 +48,8 @@ class CalledInTurn {
 
   std::unique_ptr<Object> object_;
   Shown (*show_)(const Object&);
-  std::mutex calls_;                // held by a call
-  mutable std::mutex shown_mutex_;  // of what follows, for an instant
+  CallLock calls_{"scout, tracker"};  // held by a call
+  mutable std::mutex shown_mutex_;    // of what follows, for an instant
   Shown shown_;
 };
 

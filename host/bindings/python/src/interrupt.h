@@ -12,6 +12,9 @@
 
 namespace edgescout::python {
 
+// Ends work where a signal handler raised, whose exception replaces this one.
+struct Interrupted {};
+
 // Runs pending signal handlers; true where one of them raised. Takes the lock at most 20 times a
 // second.
 class Signals {

@@ -35,9 +35,6 @@ Symmetries symmetries_of(const py::object& given, const Mesh& mesh) {
   return without_lock([&] { return symmetries_of_transforms(transforms); });
 }
 
-// Thrown where a signal handler raised, whose exception replaces it.
-struct Interrupted {};
-
 // Built without the lock or read from the cache.
 TemplateSet templates_of(const Object& object, TemplateOptions options,
                          const std::optional<Camera>& camera, const BackendPointer& backend,

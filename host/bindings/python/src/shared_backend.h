@@ -3,9 +3,8 @@
 
 #include <memory>
 #include <mutex>
-#include <string>
 
-#include "host/bindings/python/src/interrupt.h"
+#include "host/bindings/python/src/call_lock.h"
 #include "kernels/backend.h"
 
 namespace edgescout::python {
@@ -16,16 +15,18 @@ class SharedBackend {
 
   const Backend& info() const { return *backend_; }
 
-  // Calls work(backend); others wait. The caller has given up the interpreter's lock.
+  // Calls work(backend); others wait, until the limit is cancelled. The caller has given up the
+  // interpreter's lock.
   template <typename Work>
-  auto use(const Work& work) {
-    const std::scoped_lock lock(mutex_);
+  auto use(const TimeLimit& limit, const Work& work) {
+    calls_.lock(limit);
+    const std::scoped_lock lock(std::adopt_lock, calls_);
     return work(*backend_);
   }
 
  private:
   std::unique_ptr<Backend> backend_;
-  std::mutex mutex_;
+  CallLock calls_{"backend"};
 };
 
 using BackendPointer = std::shared_ptr<SharedBackend>;
@@ -38,7 +39,7 @@ template <typename Work>
 auto on_backend(const BackendPointer& given, std::optional<double> max_seconds, const Work& work) {
   const BackendPointer backend = backend_or_usual(given);
   return without_lock(max_seconds, [&](const TimeLimit& limit) {
-    return backend->use([&](Backend& on) { return work(limit, on); });
+    return backend->use(limit, [&](Backend& on) { return work(limit, on); });
   });
 }
 
