@@ -144,6 +144,8 @@ bool Bridge::work_on(ArrivedImage arrived, std::vector<ImageRequest> requests) {
     return false;
   }
   const msg::Header header = header_of(arrived.message);
+  // Before the camera is asked for: a calibration that arrives meanwhile must not be missed.
+  arrived.not_before_info = inbox_.calibrations() + 1;
   const std::optional<Camera> camera = camera_for(header, image->width, image->height);
   if (!camera) {
     wait_for_calibration(std::move(arrived), std::move(requests));
@@ -231,7 +233,6 @@ void Bridge::warn_of(const Camera& camera) {
 
 void Bridge::wait_for_calibration(ArrivedImage arrived, std::vector<ImageRequest> requests) {
   inbox_.put_back(std::move(requests));
-  arrived.not_before_info = inbox_.calibrations() + 1;
   if (options_.without_camera == WithoutCamera::Drop)
     diagnostics_.count("images dropped: no camera");
   else if (!inbox_.put_back(std::move(arrived)))
