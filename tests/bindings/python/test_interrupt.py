@@ -49,8 +49,8 @@ def calls(scene, found):
     image, camera, templates, backend = scene.image, scene.camera, scene.templates, scene.backend
     pose = found[0].world_from_object
     poses = np.repeat(pose[None], 200, axis=0)
-    views = np.repeat(np.eye(4)[None], 3, axis=0)
-    views[:, 0, 3] = 0, 0.01, 0.02
+    views = np.repeat(np.eye(4)[None], 40, axis=0)
+    views[:, 0, 3] = np.arange(40) * 0.002
     mesh = edgescout.load_mesh(scene.part, "mm")
     many = edgescout.TemplateOptions(distance_min=0.3, distance_max=0.4, viewpoints=16)
     scout = edgescout.Scout(templates, camera, views, edgescout.ScoutOptions(max_views=3),
@@ -58,6 +58,7 @@ def calls(scene, found):
     tracker = edgescout.Tracker(templates, camera, backend=backend)
     for _ in range(20):
         tracker.add(pose @ np.array([[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]))
+    searcher = edgescout.Tracker(templates, camera, backend=backend)
     one = edgescout.Backend("cpu", threads=1)
     return {
         "Templates": lambda: edgescout.Templates(mesh, many, backend=backend, cached=False),
@@ -70,7 +71,7 @@ def calls(scene, found):
         "Scout.give": lambda: scout.give(0, image),
         "Scout.propose": scout.propose,
         "Tracker.update": lambda: tracker.update(image, 1.0),
-        "Tracker.search": lambda: tracker.search(image, backend=one),
+        "Tracker.search": lambda: searcher.search(image, backend=one),
     }
 
 
