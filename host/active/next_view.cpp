@@ -1,6 +1,7 @@
 #include "host/active/next_view.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -24,6 +25,36 @@ std::size_t views_per_block(std::size_t candidates, const Camera& map_camera) {
   const std::size_t image = std::size_t(map_camera.width) * std::size_t(map_camera.height);
   return std::max<std::size_t>(1, std::min(maps, pixels / image) / candidates);
 }
+
+// How many views come next: all that fit in memory or, where the scene's limit is asked between two
+// blocks, as many as take a tenth of a second.
+class BlockSize {
+ public:
+  BlockSize(std::size_t most, const Scene& scene)
+      : most_(most), is_limited_(scene.limit && scene.limit->is_set()), views_(most) {
+    if (is_limited_) views_ = std::min(most, std::size_t(scene.backend.threads().threads()));
+  }
+
+  std::size_t views() const { return views_; }
+
+  // So many views are done since the last call.
+  void done(std::size_t views) {
+    if (!is_limited_) return;
+    constexpr double block_s = 0.1;
+    const Clock::time_point now = Clock::now();
+    const std::chrono::duration<double> elapsed = now - std::exchange(since_, now);
+    const double fitting = double(views) * block_s / std::max(elapsed.count(), 1e-6);
+    views_ = std::clamp<std::size_t>(std::size_t(std::min(fitting, double(most_))), 1, most_);
+  }
+
+ private:
+  using Clock = TimeLimit::Clock;
+
+  std::size_t most_;
+  bool is_limited_;
+  std::size_t views_;
+  Clock::time_point since_ = Clock::now();
+};
 
 // The particles that have a weight, and which of their points real views have seen.
 struct WeightedParticles {
@@ -158,13 +189,15 @@ std::vector<double> mutual_information(const NextViewProblem& problem,
   check(problem.combinations->columns == problem.candidates.size(),
         "view_information: combinations of other candidates");
   const MutualInformation mutual(problem, weighted, options);
-  const std::size_t block = mutual.block_size();
-  for (std::size_t first = 0; first < open.size(); first += block) {
-    std::vector<Se3> cameras;
-    for (std::size_t i = first; i < std::min(first + block, open.size()); ++i)
-      cameras.push_back(problem.possible_views[open[i]]);
-    std::ranges::copy(mutual.of_block(cameras),
+  std::vector<Se3> cameras;
+  for (const std::size_t view : open) cameras.push_back(problem.possible_views[view]);
+  BlockSize block(mutual.block_size(), problem.scene);
+  for (std::size_t first = 0; first < open.size() && !problem.scene.is_time_over();) {
+    const std::size_t count = std::min(block.views(), open.size() - first);
+    std::ranges::copy(mutual.of_block(std::span(cameras).subspan(first, count)),
                       information.begin() + static_cast<std::ptrdiff_t>(first));
+    first += count;
+    block.done(count);
   }
   return information;
 }
@@ -358,7 +391,8 @@ std::vector<ViewInformation> view_information(const NextViewProblem& problem,
     views[open[i]] = {true, shares[i].candidates * information[i], shares[i].candidates,
                       bonus_nats * shares[i].exploration,
                       motion_cost(problem, problem.possible_views[open[i]], options)};
-  if (std::ranges::none_of(information, [](double x) { return x > 0; }))
+  if (!problem.scene.is_time_over() &&
+      std::ranges::none_of(information, [](double x) { return x > 0; }))
     log(LogLevel::Warning,
         "no view promises any information: nothing is known that it could be about, or no view "
         "sees it");

@@ -114,8 +114,9 @@ struct ViewInformation {
 
 // Returns what is expected of each possible view. The information is 0 without particles,
 // candidates or combinations, and for views that see nothing of them. Where it is 0 for all open
-// views, a warning is logged. InputError: options out of bounds; LogicError: another number of
-// tables or of `closed`, combinations of other candidates.
+// views, a warning is logged. Once the scene's limit is over, it is 0 for the views that are left.
+// InputError: options out of bounds; LogicError: another number of tables or of `closed`,
+// combinations of other candidates.
 std::vector<ViewInformation> view_information(const NextViewProblem& problem,
                                               const NextViewOptions& options);
 

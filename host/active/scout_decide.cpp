@@ -51,8 +51,9 @@ ScoutDecision Scout::decide() const {
   }
   const std::vector<char> closed = state_.closed();
   const std::vector<ObjectView> views = views_of(views_);
+  const TimeLimit limit = until_cancelled();
   decision.views = view_information(
-      {{models_, views, backend_},
+      {{models_, views, backend_, &limit},
        tables_,
        undistorted(camera_),
        state_.views,

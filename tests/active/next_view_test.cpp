@@ -47,6 +47,24 @@ TEST(ViewInformation, IsTheSameOnEveryDevice) {
     EXPECT_NEAR(fast[v].information, device[v].information, 5e-3 * (1 + fast[v].information));
 }
 
+// A limit is asked between two blocks of views.
+TEST(ViewInformation, EndsEarlyAtALimit) {
+  Plan t;
+  const std::vector<ViewInformation> whole = t.information();
+  int asked = 0, most = 1000;
+  const TimeLimit limit{{}, [&] { return ++asked > most; }};
+  NextViewProblem problem = t.problem(*t.backend);
+  problem.scene.limit = &limit;
+  const std::vector<ViewInformation> unhurried = view_information(problem, t.options);
+  for (std::size_t v = 0; v < whole.size(); ++v)
+    EXPECT_EQ(unhurried[v].information, whole[v].information);
+  asked = 0, most = 1;  // the first block has a view for each of two threads
+  const std::vector<ViewInformation> cut = view_information(problem, t.options);
+  EXPECT_EQ(cut[1].information, whole[1].information);
+  EXPECT_EQ(cut[2].information, whole[2].information);
+  for (std::size_t v = 3; v < whole.size(); ++v) EXPECT_EQ(cut[v].information, 0);
+}
+
 // So many candidates that the maps of all views do not fit at once: the result of the blocks is the
 // same as that of each view alone.
 TEST(ViewInformation, OfManyViewsIsThatOfEachAlone) {
