@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 #include "host/model/visible_edges.h"
@@ -72,14 +71,12 @@ bool explains_edge(const EdgeIndex& edges, const Camera& camera,
                    const Eigen::Vector3d& from_in_camera, const Eigen::Vector3d& to_in_camera) {
   const Eigen::Vector2d a = project(camera, from_in_camera), b = project(camera, to_in_camera),
                         middle = 0.5 * (a + b);
-  const Eigen::Vector2d along = b - a;
-  double theta = std::atan2(along.y(), along.x());
-  if (theta < 0) theta += std::numbers::pi;
   if (middle.x() < 0 || middle.y() < 0 || middle.x() > camera.width - 1 ||
       middle.y() > camera.height - 1)
     return false;
-  return edges.nearest(float(middle.x()), float(middle.y()), float(theta), match_px,
-                       max_turn_rad) != nullptr;
+  const Eigen::Vector2d along = b - a;
+  return edges.nearest(middle.cast<float>(), along.cast<float>(), {match_px, max_turn_rad}) !=
+         nullptr;
 }
 
 // Each raster point represents a piece of edge that is one raster step long.

@@ -17,6 +17,7 @@ bool is_in_image(double x_px, double y_px, const Camera& camera) {
 SeenPoints points_seen_in(std::span<const ObjectView> real_views, const TemplateTable& table,
                           const Se3& world_from_object, double edge_px) {
   SeenPoints seen{std::vector<char>(table.total, 0), 0};
+  const EdgeReach near(float(edge_px), MAX_TURN_RAD);
   for (const ObjectView& view : real_views) {
     const Se3 camera_from_object = view.camera_from_world * world_from_object;
     const Pose pose = to_pose(camera_from_object);
@@ -27,8 +28,7 @@ SeenPoints points_seen_in(std::span<const ObjectView> real_views, const Template
       const ProjectedEdge<float> edge = project_edge(posed, k);
       if (!is_in_image(edge.u, edge.v, view.camera)) continue;
       if (edge_px > 0 && view.edges &&
-          !view.edges->nearest(edge.u, edge.v, orientation(edge.dx, edge.dy), float(edge_px),
-                               MAX_TURN_RAD))
+          !view.edges->nearest({edge.u, edge.v}, {edge.dx, edge.dy}, near))
         continue;
       seen.by_id[p.id] = 1;
       ++seen.count;

@@ -35,13 +35,13 @@ void append_explained(const Scene& scene, const ObjectPose& pose, std::size_t v,
                       std::vector<ExplainedEdge>& explained) {
   const ObjectView& view = scene.views[v];
   const Pose camera_from_object = to_pose(view.camera_from_world * pose.world_from_object);
+  const EdgeReach reach(options.match_px, options.max_turn_rad);
   const double raster_step_m = scene.models[std::size_t(pose.object)].raster_step_m;
   for (const ModelPoint& point : visible) {
     const PosedPoint<float> posed = pose_point<float>(camera_from_object, point);
     if (!can_be_seen(posed.point)) continue;
     const ProjectedEdge<float> edge = project_edge(posed, view.tensor->intrinsics);
-    const EdgePoint* match = view.edges->nearest(edge.u, edge.v, orientation(edge.dx, edge.dy),
-                                                 options.match_px, options.max_turn_rad);
+    const EdgePoint* match = view.edges->nearest({edge.u, edge.v}, {edge.dx, edge.dy}, reach);
     const double px_per_m = std::hypot(edge.dx, edge.dy) / (posed.point.z * posed.point.z);
     if (match) explained.push_back({{v, match}, raster_step_m * px_per_m});
   }

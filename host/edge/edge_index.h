@@ -1,7 +1,8 @@
 // Finds the edge points of an image by place, on a grid of cells.
 #pragma once
 
-#include <memory>
+#include <Eigen/Core>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -9,14 +10,31 @@
 
 namespace edgescout {
 
+// Which edge points a lookup may find.
+struct EdgeReach {
+  // Closer than `radius_px`, at most EdgeIndex::MAX_RADIUS_PX. Directions, which have no sign,
+  // differ by less than `max_turn_rad`; from a quarter turn on by any angle.
+  EdgeReach(float radius_px, float max_turn_rad);
+
+  float radius_px;
+  float max_sine2;  // of the turn
+};
+
 class EdgeIndex {
  public:
   EdgeIndex(std::span<const EdgePoint> edges, int width, int height);
 
-  // The edge point nearest to (x, y) within `radius_px` (at most MAX_RADIUS_PX) whose direction
-  // differs from `theta_rad` by less than `max_turn_rad`. Null where there is none.
-  const EdgePoint* nearest(float x_px, float y_px, float theta_rad, float radius_px,
-                           float max_turn_rad) const;
+  // The edge point nearest to a place, px, and along a direction of any length other than 0. Null
+  // where there is none within reach.
+  const EdgePoint* nearest(const Eigen::Vector2f& place_px, const Eigen::Vector2f& direction,
+                           const EdgeReach& reach) const;
+
+  // The unit normal (-sin(theta), cos(theta)) of the edge's tangent. `edge` is one that this index
+  // has found.
+  Eigen::Vector2f normal_of(const EdgePoint& edge) const {
+    const CellPoint& point = cell_points_[std::size_t(&edge - by_cell_.data())];
+    return {point.nx, point.ny};
+  }
 
   // Calls visit(const EdgePoint&) for every edge point within `radius_px` (at most MAX_RADIUS_PX)
   // of any direction. References stay valid as long as the index; one edge point has one address.
@@ -37,16 +55,23 @@ class EdgeIndex {
   std::span<const EdgePoint> points_by_cell() const { return by_cell_; }
 
   static constexpr int MAX_RADIUS_PX = 8;
-  static constexpr int CELL_PX = 4;  // lookups reach 2 to 3 px most of all
 
  private:
+  // Lookups reach 2 to 3 px most of all. The points of neighbouring cells of a row lie one after
+  // the other, so narrow cells cost nothing.
+  static constexpr int CELL_WIDTH_PX = 2, CELL_HEIGHT_PX = 4;
+
   struct Cells {
     int x0, x1, y0, y1;
+  };
+  struct CellPoint {
+    float x_px, y_px, nx, ny;  // place and normal
   };
   Cells cells_around(float x_px, float y_px, float radius_px) const;
 
   int columns_, rows_;
   std::vector<EdgePoint> points_, by_cell_;  // a copy each: lookups read neighbours in memory
+  std::vector<CellPoint> cell_points_;       // as by_cell_
   // Points of cell c are by_cell_[cell_end_[c]] up to by_cell_[cell_end_[c + 1]].
   std::vector<std::uint32_t> cell_end_;
 };

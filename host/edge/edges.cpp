@@ -52,11 +52,11 @@ std::vector<EdgePoint> find_edges(const Image& image, const EdgesOptions& option
   const ImageView view{image.width, image.height, image.pixels.data()};
   std::vector<EdgePoint> edges = backend.detect_edges(view, options.gradient);
   if (!options.faint_edges) return edges;
-  constexpr float any_direction = 4;
+  constexpr float any_turn = 4;
+  const EdgeReach near(options.faint_clearance_px, any_turn);
   const EdgeIndex fine(edges, image.width, image.height);
   for (const EdgePoint& edge : backend.detect_edges(view, options.faint))
-    if (!fine.nearest(edge.x_px, edge.y_px, edge.theta_rad, options.faint_clearance_px,
-                      any_direction))
+    if (!fine.nearest({edge.x_px, edge.y_px}, Eigen::Vector2f::UnitX(), near))
       edges.push_back(edge);
   return edges;
 }

@@ -32,9 +32,10 @@ struct LineResidual {
   Vector6d jacobian;
 };
 
-LineResidual residual_to(const EdgePoint& edge, const PosedPoint<double>& p,
-                         const ProjectedEdge<double>& projected, const Intrinsics& k) {
-  const double nx = -std::sin(edge.theta_rad), ny = std::cos(edge.theta_rad);
+LineResidual residual_to(const EdgePoint& edge, const Eigen::Vector2f& normal,
+                         const PosedPoint<double>& p, const ProjectedEdge<double>& projected,
+                         const Intrinsics& k) {
+  const double nx = normal.x(), ny = normal.y();
   return {nx, ny, nx * (projected.u - edge.x_px) + ny * (projected.v - edge.y_px),
           image_motion(nx, ny, p, k)};
 }
@@ -61,7 +62,8 @@ Matrix6d camera_tangent(const ObjectView& view) {
 struct LineSystem {
   Matrix6d hessian = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
-  double weight = 0;
+  double weight = 0;  // of edges and depth
+  double edge_weight = 0;
   Counts counts;
 };
 
@@ -76,7 +78,7 @@ LineSystem depth_system(const ObjectView& view, const Se3& world_from_object,
   PoseDepth found;
   pose_depth_reference({&measured, 1}, surface, {&problem, 1}, options, {&found, 1});
   const WorldSystem in_world = world_system(found, view.camera_from_world);
-  return {in_world.hessian, in_world.gradient, double(found.weight_sum), {}};
+  return {in_world.hessian, in_world.gradient, double(found.weight_sum), 0, {}};
 }
 
 // What the iterations of all rounds came to.
@@ -84,6 +86,7 @@ struct Iterated {
   Se3 pose;
   Convergence convergence = Convergence::TooFewEdges;
   double last_step_px = 0;
+  double explained = 0;  // share of the points inside the images that edges explain, by weight
 };
 
 // The visible edges and surfaces of one pose, compared with the views.
@@ -116,19 +119,15 @@ class PoseIcp {
         }
       }
     }
-    return enough(system_at(at.pose, options_.rounds.back())) ? at : Iterated{start};
+    const LineSystem last = system_at(at.pose, options_.rounds.back());
+    at.explained = share(last.edge_weight, last.counts.in_image);
+    return enough(last) ? at : Iterated{start};
   }
 
-  // Share of the points inside the images that edges explain, each by its weight.
+  // As Iterated::explained.
   double explained(const Se3& pose) {
-    double weight_sum = 0, in_image = 0;
-    for (std::size_t v = 0; v < views_.size(); ++v)
-      in_image += match_points(v, pose, options_.rounds.back(),
-                               [&](const LineResidual&, double weight, const auto&) {
-                                 weight_sum += weight;
-                               })
-                      .in_image;
-    return share(weight_sum, in_image);
+    const LineSystem system = system_at(pose, options_.rounds.back());
+    return share(system.edge_weight, system.counts.in_image);
   }
 
   // At the estimate's pose.
@@ -193,6 +192,7 @@ class PoseIcp {
     const ObjectView& view = views_[v];
     const Pose pose = to_pose(view.camera_from_world * world_from_object);
     const Intrinsics k = intrinsics_of(view.camera);
+    const EdgeReach reach(round.radius_px, options_.max_turn_rad);
     Counts counts;
     matches_.clear();
     for (const ModelPoint& model : visible_[v].points) {
@@ -201,10 +201,13 @@ class PoseIcp {
       ++counts.points;
       const ProjectedEdge<double> projected = project_edge(posed, k);
       counts.in_image += on_image(projected, view.camera.width, view.camera.height);
-      const EdgePoint* edge = view.edges->nearest(float(projected.u), float(projected.v),
-                                                  float(orientation(projected.dx, projected.dy)),
-                                                  round.radius_px, options_.max_turn_rad);
-      if (edge) matches_.push_back({edge, residual_to(*edge, posed, projected, k), projected});
+      const EdgePoint* edge =
+          view.edges->nearest({float(projected.u), float(projected.v)},
+                              {float(projected.dx), float(projected.dy)}, reach);
+      if (edge)
+        matches_.push_back({edge,
+                            residual_to(*edge, view.edges->normal_of(*edge), posed, projected, k),
+                            projected});
     }
     return counts;
   }
@@ -212,6 +215,7 @@ class PoseIcp {
   LineSystem system_at(const Se3& pose, const EdgeIcpRound& round) {
     LineSystem sum = depth_system_at(pose);
     for (std::size_t v = 0; v < views_.size(); ++v) add_points(sum, v, pose, round);
+    sum.weight += sum.edge_weight;
     return sum;
   }
 
@@ -222,12 +226,13 @@ class PoseIcp {
         match_points(v, pose, round, [&](const LineResidual& r, double weight, const auto&) {
           hessian += weight * r.jacobian * r.jacobian.transpose();
           gradient += weight * r.value * r.jacobian;
-          sum.weight += weight;
+          sum.edge_weight += weight;
         });
     const Matrix6d to_camera = camera_tangent(views_[v]);
     sum.hessian += to_camera.transpose() * hessian * to_camera;
     sum.gradient += to_camera.transpose() * gradient;
     sum.counts.points += counts.points;
+    sum.counts.in_image += counts.in_image;
     sum.counts.matched += counts.matched;
   }
 
@@ -308,10 +313,8 @@ bool hop(PoseEstimate& estimate, PoseIcp& icp, std::span<const Se3> starts) {
   bool has_moved = false;
   for (const Se3& start : starts) {
     const Iterated found = icp.iterate(start);
-    if (found.convergence == Convergence::TooFewEdges) continue;
-    const double explained = icp.explained(found.pose);
-    if (explained <= most) continue;
-    most = explained;
+    if (found.convergence == Convergence::TooFewEdges || found.explained <= most) continue;
+    most = found.explained;
     has_moved = true;
     estimate.world_from_object = found.pose;
     estimate.convergence = found.convergence;

@@ -19,7 +19,7 @@ std::vector<EdgePoint> two_edges() {
 struct OfTwoEdges {
   EdgeIndex index{two_edges(), 40, 24};
   ContestedEdges contested{index};
-  const EdgePoint& at(float x, float y) const { return *index.nearest(x, y, 0, 1, 1); }
+  const EdgePoint& at(float x, float y) const { return *index.nearest({x, y}, {1, 0}, {1, 1}); }
 };
 
 TEST(ContestedEdges, GoToTheNearestLine) {
