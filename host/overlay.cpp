@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
 
+#include "host/captions.h"
 #include "host/model/visible_edges.h"
 #include "kernels/error.h"
 
@@ -15,6 +16,11 @@ namespace {
 constexpr float match_px = 3, max_turn_rad = 0.35f;
 const cv::Scalar matched(60, 230, 60), unmatched(255, 120, 20), unknown(60, 220, 255);
 const cv::Scalar axis_colours[3] = {{255, 50, 50}, {50, 255, 50}, {80, 120, 255}};
+
+struct PlacedWords {
+  std::string words;
+  Eigen::Vector2d at_px;
+};
 
 class Canvas {
  public:
@@ -37,14 +43,15 @@ class Canvas {
              fraction_bits);
   }
 
-  void text(const std::string& words, const Eigen::Vector2d& at) {
-    if (!is_near(at)) return;
-    const cv::Point corner(static_cast<int>(std::lround(at.x())) + 6,
-                           static_cast<int>(std::lround(at.y())) - 6);
-    const double size = std::clamp(canvas_.cols / 1600.0, 0.4, 1.5);
-    cv::putText(canvas_, words, corner, cv::FONT_HERSHEY_SIMPLEX, size, {0, 0, 0}, 3, cv::LINE_AA);
-    cv::putText(canvas_, words, corner, cv::FONT_HERSHEY_SIMPLEX, size, {255, 255, 255}, 1,
-                cv::LINE_AA);
+  // All at once, so that none covers another.
+  void texts(std::span<const PlacedWords> texts) {
+    std::vector<Caption> captions;
+    for (const PlacedWords& text : texts)
+      captions.push_back({text.at_px, size_px(text.words) + Eigen::Vector2i::Constant(margin_px)});
+    const std::vector<Eigen::Vector2i> corners =
+        place_captions(captions, {canvas_.cols, canvas_.rows});
+    for (std::size_t i = 0; i < texts.size(); ++i)
+      if (is_near(texts[i].at_px)) text(texts[i], corners[i], captions[i].size_px);
   }
 
   RgbImage take() const {
@@ -55,6 +62,32 @@ class Canvas {
 
  private:
   static constexpr int fraction_bits = 4;
+  static constexpr int font = cv::FONT_HERSHEY_SIMPLEX, margin_px = 3;
+
+  double font_scale() const { return std::clamp(canvas_.cols / 1600.0, 0.4, 1.5); }
+
+  Eigen::Vector2i size_px(const std::string& words) const {
+    int below_line = 0;
+    const cv::Size size = cv::getTextSize(words, font, font_scale(), 1, &below_line);
+    return {size.width, size.height + below_line};
+  }
+
+  // A line leads from the point to words that stand away from it.
+  void text(const PlacedWords& text, const Eigen::Vector2i& corner,
+            const Eigen::Vector2i& size_px) {
+    const Eigen::Vector2d middle = corner.cast<double>() + 0.5 * size_px.cast<double>(),
+                          reach = 0.5 * size_px.cast<double>() + Eigen::Vector2d(12, 12);
+    if (((text.at_px - middle).cwiseAbs().array() > reach.array()).any())
+      cv::line(canvas_, fixed_point(text.at_px), fixed_point(middle), {200, 200, 200}, 1,
+               cv::LINE_AA, fraction_bits);
+    int below_line = 0;
+    const int height = cv::getTextSize(text.words, font, font_scale(), 1, &below_line).height;
+    const cv::Point line_start(corner.x() + 1, corner.y() + height + 1);
+    cv::putText(canvas_, text.words, line_start, font, font_scale(), {0, 0, 0}, 3, cv::LINE_AA);
+    cv::putText(canvas_, text.words, line_start, font, font_scale(), {255, 255, 255}, 1,
+                cv::LINE_AA);
+  }
+
   // Coordinates far outside the image would overflow OpenCV's fixed point.
   bool is_near(const Eigen::Vector2d& p) const {
     return p.cwiseAbs().maxCoeff() < 4.0 * std::max(canvas_.cols, canvas_.rows);
@@ -96,22 +129,21 @@ void draw_edges(Canvas& canvas, const Camera& camera, const OverlayPose& pose,
   }
 }
 
+// A probability below 1 is not written as 1.
 std::string caption_of(const OverlayPose& pose) {
   if (!pose.score) return pose.label;
   char score[32];
-  std::snprintf(score, sizeof score, "%.2f", *pose.score);
+  std::snprintf(score, sizeof score, "%.2f", std::floor(100 * *pose.score + 1e-6) / 100);
   return pose.label.empty() ? score : pose.label + " " + score;
 }
 
-void draw_axes(Canvas& canvas, const Camera& camera, const OverlayPose& pose,
-               const EdgeModel& model) {
+void draw_axes(Canvas& canvas, const OverlayPose& pose, const EdgeModel& model) {
   const Eigen::Vector3d center = pose.camera_from_object * model.center_m;
   for (int axis = 0; axis < 3; ++axis)
     canvas.line(center,
                 pose.camera_from_object *
                     (model.center_m + 0.25 * model.mesh.diameter_m * Eigen::Vector3d::Unit(axis)),
                 axis_colours[axis], 2);
-  canvas.text(caption_of(pose), project(camera, center));
 }
 
 }  // namespace
@@ -121,14 +153,18 @@ RgbImage draw_overlay(const Image& image, const Camera& camera, std::span<const 
   check(image.width == camera.width && image.height == camera.height,
         "draw_overlay: image and camera differ in size");
   Canvas canvas(image, camera);
+  std::vector<PlacedWords> texts;
   for (const OverlayPose& pose : poses) {
     const EdgeModel& model = models[static_cast<std::size_t>(pose.object)];
     if ((pose.camera_from_object * model.center_m).z() <= 0) continue;
     draw_edges(canvas, camera, pose, model,
                visible_edges(model, {&pose.camera_from_object, 1}, backend)[0],
                pose.compare ? edges : nullptr);
-    if (pose.axes) draw_axes(canvas, camera, pose, model);
+    if (!pose.axes) continue;
+    draw_axes(canvas, pose, model);
+    texts.push_back({caption_of(pose), project(camera, pose.camera_from_object * model.center_m)});
   }
+  canvas.texts(texts);
   return canvas.take();
 }
 

@@ -19,7 +19,7 @@ class Backend;
 struct OverlayPose {
   int object = 0;  // index into the models
   Se3 camera_from_object;
-  std::optional<double> score;  // written next to the object's centre
+  std::optional<double> score;  // written near the object's centre, hundredths cut off
   std::string label;            // written before the score
   bool compare = true;          // false: the edges are cyan, whether the image has them or not
   bool axes = true;             // false: neither axes nor label and score
