@@ -2,6 +2,8 @@
 #pragma once
 
 #include <charconv>
+#include <cstdio>
+#include <cstdlib>
 #include <initializer_list>
 #include <string>
 #include <variant>
@@ -50,9 +52,26 @@ inline const Argument& argument_of(const std::string& word, std::initializer_lis
   throw InputError("command line", "argument", word, "one of " + list);
 }
 
-// InputError on a word that is none of `known`, and on one without its value.
+inline void print_usage(const char* program, std::initializer_list<Argument> known) {
+  std::printf("usage: %s", program);
+  for (const Argument& argument : known) {
+    const bool is_number = std::holds_alternative<int*>(argument.target) ||
+                           std::holds_alternative<double*>(argument.target);
+    const bool is_text = std::holds_alternative<std::string*>(argument.target);
+    const char* value = is_number ? " NUMBER" : is_text && argument.is_option() ? " TEXT" : "";
+    std::printf(" [%s%s]", argument.name.c_str(), value);
+  }
+  std::printf("\n");
+}
+
+// InputError on a word that is none of `known`, and on one without its value. `--help` prints the
+// words and ends the program.
 inline void read_arguments(int argc, char** argv, std::initializer_list<Argument> known) {
   for (int i = 1; i < argc; ++i) {
+    if (argv[i] == std::string("--help")) {
+      print_usage(argv[0], known);
+      std::exit(0);
+    }
     const Argument& argument = argument_of(argv[i], known);
     if (const auto given = std::get_if<bool*>(&argument.target)) {
       **given = true;
