@@ -239,7 +239,7 @@ std::string difference_row(const std::string& name, const Detector& detector,
 
 std::string introduction(const ExperimentSettings& settings) {
   return fmt::format(
-      "{} candidates an image and type: {} around every instance of which at least a tenth shows, "
+      "{} candidates per image and type: {} around every instance of which at least a tenth shows, "
       "within {} "
       "rad and {:.0f} mm; all others anywhere in a cube that holds the instances. "
       "FDCM ranks by the mean distance of the tensor (with the paper's weight of the orientation, "
@@ -250,7 +250,7 @@ std::string introduction(const ExperimentSettings& settings) {
       "OpenCV's linemod. An instance is found where a candidate of it is accepted. 95 % intervals "
       "by "
       "bootstrap over images; of the difference over the same draws of images.{}\n\n"
-      "| candidates | method | no false positive | 0.1 an image | 1 | 10 | instances "
+      "| candidates | method | no false positive | 0.1 per image | 1 | 10 | instances "
       "|\n|---|---|---|---|---|---|---|\n",
       settings.candidates, CANDIDATES_AN_INSTANCE, CANDIDATE_ANGLE_RAD, 1000 * CANDIDATE_DISTANCE_M,
       PAPER_LAMBDA_PX_PER_RAD, settings.tensor.cap_px,
@@ -259,7 +259,7 @@ std::string introduction(const ExperimentSettings& settings) {
 
 void add_part(Report& report, const Part& part) {
   Panel panel{
-      part.name, "false positives an image (none: as half of one)", "true positive rate", {}, 0, 1,
+      part.name, "false positives per image (none: as half of one)", "true positive rate", {}, 0, 1,
       true};
   std::vector<std::vector<Rates>> of_detector;
   const Draws draws = draw_images(values_of(part.rows, "image").size());
