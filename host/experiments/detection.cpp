@@ -159,8 +159,10 @@ Scored scored_by(const Detector& detector, const Table& table) {
       scored.instances[index] += static_cast<int>(number_in(table, row, "instances"));
     ScoredPose pose{detector.sign * number_in(table, row, detector.column), -1, index};
     if (const std::string& instance = text_in(table, row, "instance"); !instance.empty())
-      pose.instance = instances.emplace(image + "/" + instance, static_cast<int>(instances.size()))
-                          .first->second;
+      pose.instance =
+          instances
+              .emplace(fmt::format("{}/{}", image, instance), static_cast<int>(instances.size()))
+              .first->second;
     scored.poses.push_back(pose);
   }
   return scored;

@@ -31,7 +31,8 @@ inline Image flat_image(const Mesh& mesh, const Se3& camera_from_object, ThreadP
       for (int sy = 0; sy < samples; ++sy)
         for (int sx = 0; sx < samples; ++sx) {
           const int triangle =
-              raster.triangle[std::size_t((samples * y + sy) * fine.width + samples * x + sx)];
+              raster.triangle[std::size_t(samples * y + sy) * std::size_t(fine.width) +
+                              std::size_t(samples * x + sx)];
           const bool is_dark = stripes_px > 0 && (x / stripes_px) % 2 == 0;
           sum += triangle < 0 ? (is_dark ? 20 : 35)
                               : grey_of_face(camera_from_object.rotation *
