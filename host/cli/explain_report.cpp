@@ -88,8 +88,12 @@ std::string refinement_text(const RefinementReport& r) {
                      off(r.own));
 }
 
-std::string probability_text(const RefinementReport& r) {
-  return fmt::format("{}; itself {}", r.same ? features_text(*r.same) : "no pose",
+std::string probability_text(const RefinementReport& r, const SelectionReport& s) {
+  const std::string shared =
+      s.shared_probability ? fmt::format("; {:.2f} once it shares its odds with {} alternatives",
+                                         *s.shared_probability, s.alternatives)
+                           : "";
+  return fmt::format("{}{}; itself {}", r.same ? features_text(*r.same) : "no pose", shared,
                      features_text(r.own));
 }
 
@@ -123,7 +127,7 @@ std::string text_of(LossStage stage, const LossReport& report) {
     case LossStage::Refinement:
       return refinement_text(report.refinement);
     case LossStage::Probability:
-      return probability_text(report.refinement);
+      return probability_text(report.refinement, report.selection);
     default:
       return selection_text(report.selection, report.lost_at);
   }
@@ -235,6 +239,8 @@ ordered_json selection_json(const SelectionReport& r, int object) {
   return {{"competes", r.competes},
           {"above_chance", r.above_chance},
           {"claimed", r.claimed},
+          {"shared_probability", or_null(r.shared_probability)},
+          {"alternatives", r.alternatives},
           {"selected", found_json(r.selected, object)},
           {"rank", r.selected ? ordered_json(r.rank) : ordered_json()},
           {"is_reported", r.is_reported}};

@@ -32,6 +32,9 @@ struct SelectionTrace {
   std::vector<PoseEstimate> competing;
   std::size_t first_restarted = 0;
   std::vector<Detection> selected;  // most probable first; max_detections of them are reported
+  // Selected as well, but less probable than DetectOptions::min_probability; some only because they
+  // share their odds with their alternatives.
+  std::vector<Detection> less_probable;
 };
 
 // Returns whether both are copies of one estimate.

@@ -211,12 +211,25 @@ class LostPose {
     selection.claimed = claimed_fraction(scene_, pose, others, options_.edge_claims);
     selection.is_reported =
         selection.selected && selection.rank <= std::size_t(options_.max_detections);
+    if (!selection.selected && probability_of(pose) >= options_.min_probability)
+      add_sharing(selection);
     return selection;
+  }
+
+  // Of a pose that is probable enough by itself.
+  void add_sharing(SelectionReport& selection) const {
+    const std::vector<Detection>& less_probable = stages_.selection.less_probable;
+    const auto same = std::ranges::find_if(
+        less_probable, [&](const Detection& d) { return given_.of_bounds(d) < 1; });
+    if (same == less_probable.end()) return;
+    selection.shared_probability = same->probability;
+    selection.alternatives = same->alternatives.size();
   }
 
   // The stage after the last one that held the pose.
   LossStage lost_at(const LossReport& report) const {
     if (report.selection.is_reported) return LossStage::Reported;
+    if (report.selection.shared_probability) return LossStage::Probability;
     if (const Index competing = stages_.competing.best_same(probability_of))
       return probability_of(stages_.competing.poses[*competing]) < options_.min_probability
                  ? LossStage::Probability

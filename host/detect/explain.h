@@ -123,6 +123,10 @@ struct SelectionReport {
   bool competes = false;      // a pose that is the same has enough probability and is no duplicate
   bool above_chance = false;  // its psi; others are never selected
   double claimed = 0;         // fraction of its explained edges that other selected poses claim
+  // Where it was selected, and is less probable than DetectOptions::min_probability only since it
+  // shares its odds with so many alternatives.
+  std::optional<double> shared_probability;
+  std::size_t alternatives = 0;
   std::optional<FoundPose> selected;  // the most probable selected pose that is the same
   std::size_t rank = 0;               // its rank by probability among the selected poses, from 1
   bool is_reported = false;           // it is among the DetectOptions::max_detections best

@@ -94,12 +94,14 @@ std::vector<Detection> select_detections(const Scene& scene, std::span<const Tem
   }
   set_alternatives(detections, competing.poses(), sets);
   for (Detection& detection : detections) share_odds(detection);
-  std::erase_if(detections,
-                [&](const Detection& d) { return d.probability < options.min_probability; });
+  const auto too_improbable = std::ranges::stable_partition(
+      detections, [&](const Detection& d) { return d.probability >= options.min_probability; });
+  const std::vector<Detection> less_probable(too_improbable.begin(), too_improbable.end());
+  detections.erase(too_improbable.begin(), too_improbable.end());
   std::ranges::stable_sort(detections, [](const Detection& a, const Detection& b) {
     return a.probability > b.probability;
   });
-  if (trace) *trace = {competing.poses(), first_restarted, detections};
+  if (trace) *trace = {competing.poses(), first_restarted, detections, less_probable};
   if (int(detections.size()) > options.max_detections) detections.resize(options.max_detections);
   return detections;
 }

@@ -247,6 +247,24 @@ TEST(ExplainLoss, NamesTheProbability) {
   EXPECT_GT(report.refinement.same->features.psi, 0.7);
 }
 
+// A pose that is probable enough until it shares its odds with its alternatives.
+TEST(ExplainLoss, NamesTheProbabilityWhereAlternativesShareIt) {
+  const RenderedPart part("l_bracket");
+  Traced t(part, few_poses());
+  SelectionTrace& selection = t.trace.selection;
+  ASSERT_FALSE(selection.selected.empty());
+  Detection fallen = selection.selected[0];
+  fallen.probability = 0.31;
+  fallen.alternatives.resize(2);
+  selection.less_probable = {fallen};
+  EXPECT_EQ(t.explain(fallen.world_from_object).lost_at, LossStage::Reported);
+  selection.selected.clear();
+  const LossReport report = t.explain(fallen.world_from_object);
+  EXPECT_EQ(report.lost_at, LossStage::Probability);
+  EXPECT_EQ(report.selection.shared_probability, 0.31);
+  EXPECT_EQ(report.selection.alternatives, 2u);
+}
+
 TEST(ExplainLoss, NamesTheSelectionThatReportsOthers) {
   const RenderedPart parts("bearing_block", 1, 2);
   PipelineOptions options = few_poses();

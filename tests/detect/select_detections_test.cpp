@@ -51,6 +51,7 @@ TEST(SelectDetections, PosesBelowTheThresholdCompeteAndAreNotReported) {
     const std::size_t reported = margin < 0 ? 1 : 0;
     EXPECT_EQ(select_detections(seen, scene.sets, refined, options, &trace).size(), reported);
     EXPECT_EQ(trace.selected.size(), reported);
+    EXPECT_EQ(trace.less_probable.size(), 1 - reported);
     EXPECT_FALSE(trace.competing.empty());
   }
 }
