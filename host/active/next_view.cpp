@@ -177,6 +177,13 @@ std::vector<double> MutualInformation::of_block(std::span<const Se3> camera_from
   return information;
 }
 
+// Of the views of `open`: camera_from_world.
+std::vector<Se3> cameras_of(const NextViewProblem& problem, std::span<const std::size_t> open) {
+  std::vector<Se3> cameras;
+  for (const std::size_t view : open) cameras.push_back(problem.possible_views[view]);
+  return cameras;
+}
+
 // One per view of `open`.
 std::vector<double> mutual_information(const NextViewProblem& problem,
                                        std::span<const std::size_t> open,
@@ -189,8 +196,7 @@ std::vector<double> mutual_information(const NextViewProblem& problem,
   check(problem.combinations->columns == problem.candidates.size(),
         "view_information: combinations of other candidates");
   const MutualInformation mutual(problem, weighted, options);
-  std::vector<Se3> cameras;
-  for (const std::size_t view : open) cameras.push_back(problem.possible_views[view]);
+  const std::vector<Se3> cameras = cameras_of(problem, open);
   BlockSize block(mutual.block_size(), problem.scene);
   for (std::size_t first = 0; first < open.size() && !problem.scene.is_time_over();) {
     const std::size_t count = std::min(block.views(), open.size() - first);
@@ -288,8 +294,7 @@ std::vector<double> unmeasured_shares(const NextViewProblem& problem,
   const UnmeasuredSpace space = unmeasured_space(real, *problem.workspace, backend.threads());
   const double object_m3 = smallest_box_m3(problem.scene.models);
   std::vector<double> shares(open.size());
-  std::vector<Se3> cameras;
-  for (const std::size_t view : open) cameras.push_back(problem.possible_views[view]);
+  const std::vector<Se3> cameras = cameras_of(problem, open);
   for (std::size_t first = 0; first < cameras.size(); first += block) {
     const auto some = std::span(cameras).subspan(first, std::min(block, cameras.size() - first));
     const std::vector<Occluders> surfaces = measured_surfaces(real, map_camera, some, backend);
