@@ -44,14 +44,14 @@ class Canvas {
   }
 
   // All at once, so that none covers another.
-  void texts(std::span<const PlacedWords> texts) {
+  void texts(std::vector<PlacedWords> texts) {
+    std::erase_if(texts, [&](const PlacedWords& text) { return !is_near(text.at_px); });
     std::vector<Caption> captions;
     for (const PlacedWords& text : texts)
       captions.push_back({text.at_px, size_px(text.words) + Eigen::Vector2i::Constant(margin_px)});
     const std::vector<Eigen::Vector2i> corners =
         place_captions(captions, {canvas_.cols, canvas_.rows});
-    for (std::size_t i = 0; i < texts.size(); ++i)
-      if (is_near(texts[i].at_px)) text(texts[i], corners[i], captions[i].size_px);
+    for (std::size_t i = 0; i < texts.size(); ++i) text(texts[i], corners[i], captions[i].size_px);
   }
 
   RgbImage take() const {

@@ -98,6 +98,12 @@ TEST(Overlay, LeavesOutWhatIsBehindOrFarOutside) {
         << t.transpose();
 }
 
+// Its place in the image is more than an integer holds.
+TEST(Overlay, WritesNothingAtAPointFarOutside) {
+  const RgbImage with = draw({0, {in_front.rotation, {1e9, 0, 1e-3}}, 0.9, "far"}, nullptr);
+  EXPECT_EQ(with.pixels, draw({0, {in_front.rotation, {0, 0, -1}}, 0.9, "behind"}, nullptr).pixels);
+}
+
 TEST(Overlay, NeedsACameraOfTheImagesSize) {
   const std::unique_ptr<Backend> backend = make_cpu_backend(1);
   Camera other = camera;
